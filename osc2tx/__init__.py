@@ -35,7 +35,7 @@ __all__ = [
     "compile_text",
 ]
 
-# Loaded when they are asked for: the command line starts without them.
+# Loaded on demand: the command line starts without them.
 _HOMES = {
     "CheckResult": "osc2tx.api",
     "CompileResult": "osc2tx.api",

@@ -92,7 +92,7 @@ class CompileResult:
 
 @dataclass(frozen=True, slots=True)
 class CheckResult:
-    """What a check found.
+    """The result of a check.
 
     Attributes:
         name: Name of the source in diagnostics.
@@ -121,11 +121,11 @@ class Options(TypedDict, total=False):
         std: Version of the standard.
         dialect: Dialect of the source.
         one_of: Meaning of `one_of`.
-        target: What to make.
+        target: The outputs.
         xml_version: Version of OpenSCENARIO XML.
         xml_profile: Tool that is to read the XML.
-        allow_approx: Whether XML may mean nearly the same.
-        import_paths: Folders with libraries, where modules are looked for after the project.
+        allow_approx: Whether XML may be approximated.
+        import_paths: Folders with libraries, which are searched after the project.
         verify: Whether XML is played, to measure its grades.
     """
 
@@ -180,8 +180,8 @@ def compile_text(
 
     Args:
         text: The text.
-        name: How diagnostics and generated files call it.
-        folder: Where imported files are looked for, and from where settings files.
+        name: Its name in diagnostics and generated files.
+        folder: Folder of imported files, from which settings files are searched upward.
         **options: See `Options`.
 
     Raises:
@@ -198,7 +198,7 @@ def check_text(
     folder: str | Path = ".",
     **options: Unpack[Options],
 ) -> CheckResult:
-    r"""Check a text as `osc2tx check` does; no outputs are made, which is several times faster.
+    r"""Check a text as `osc2tx check` does; no outputs are written, which is several times faster.
 
     Examples:
         >>> from osc2tx import apply_fixes, check_text
@@ -211,8 +211,8 @@ def check_text(
 
     Args:
         text: The text.
-        name: How diagnostics call it.
-        folder: Where imported files are looked for, and from where settings files.
+        name: Its name in diagnostics.
+        folder: Folder of imported files, from which settings files are searched upward.
         **options: See `Options`.
 
     Raises:

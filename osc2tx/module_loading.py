@@ -58,7 +58,7 @@ def _dotted(module: GeneratedModule) -> str:
 
 
 class _TextLoader(MetaPathFinder, InspectLoader):
-    """Finds and loads modules whose texts are at hand, and the packages in which they stand.
+    """Finds and loads modules from given texts, with their packages.
 
     Attributes:
         names: Of all of them.
@@ -102,7 +102,7 @@ class _TextLoader(MetaPathFinder, InspectLoader):
         raise FileNotFoundError(path)
 
     def forget_lines(self) -> None:
-        """Drop the lines that messages have quoted: others may come to stand there."""
+        """Drop the quoted lines of messages, which other modules may replace."""
         for name in self._modules:
             linecache.cache.pop(self._place(name), None)
 
@@ -119,7 +119,7 @@ def _compiled(text: str, place: str) -> CodeType:
 def module_files(
     module: GeneratedModule, siblings: Sequence[GeneratedModule] = ()
 ) -> tuple[dict[str, str], str]:
-    """Return the files of a module that was just generated, by path, and the path of its own.
+    """Return the files of a generated module, by path, and its own path.
 
     Args:
         module: The module.
@@ -137,7 +137,7 @@ def module_files(
 
 @contextmanager
 def scenarios_of_file(place: Path, name: str) -> Iterator[Mapping[str, type[Scenario]]]:
-    """Give the scenario classes of a written module; it is imported under a name of its own.
+    """Return the scenario classes of a written module, which is imported under a unique name.
 
     Raises:
         ImportError, SyntaxError, ValueError, OSError: If it cannot be imported.
@@ -156,7 +156,7 @@ def scenarios_of_file(place: Path, name: str) -> Iterator[Mapping[str, type[Scen
 
 @contextmanager
 def _found_siblings(place: Path) -> Iterator[None]:
-    """Let a module find the modules beside it, as its script does."""
+    """Make the modules beside a module importable, as its script does."""
     files, folders = sibling_files(place)
     kept = {
         name

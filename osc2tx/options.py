@@ -28,12 +28,12 @@ XML_PROFILES: tuple[XmlProfile, ...] = ("generic", "esmini", "scenario_runner")
 
 @dataclass(frozen=True, slots=True)
 class XmlOptions:
-    """What can be chosen about OpenSCENARIO XML.
+    """Options of OpenSCENARIO XML.
 
     Attributes:
         version: Version of the standard to write.
         profile: The tool that is to read it.
-        allow_approx: Whether constructs may mean nearly the same.
+        allow_approx: Whether constructs may be approximated.
         signals: Events from outside with their times, as for `osc2tx run --signal`.
         spawns: Start places of actors that the scenario does not place, as for `--spawn`.
         map_path: Folders with maps, besides that of the source and the built-in ones.
@@ -51,16 +51,16 @@ class XmlOptions:
 
 @dataclass(frozen=True, slots=True)
 class CompileOptions:
-    """The options of one compilation; they are all that output depends on besides the source.
+    """The options of one compilation: all inputs of its output besides the source.
 
     Attributes:
         standard: Version of OpenSCENARIO DSL.
-        dialect: The language as the standard has it, or as a simulator's users write it.
-        one_of: Which member of a `one_of` counts.
-        target: What is made: modules, OpenSCENARIO XML, or both, XML then only where it can say
-            what the scenario says.
-        xml: What counts for OpenSCENARIO XML only.
-        import_paths: Folders with libraries: modules are looked for there, after the project.
+        dialect: The set of accepted deviations from the standard.
+        one_of: The policy of `one_of`.
+        target: The outputs: modules, OpenSCENARIO XML, or both, then XML only where it can express
+            the scenario.
+        xml: Options of OpenSCENARIO XML.
+        import_paths: Folders with libraries, which are searched after the project.
     """
 
     standard: Standard = "2.1"

@@ -23,7 +23,7 @@ def main() -> NoReturn:
     """Run the command line and end the process."""
     try:
         signal.signal(signal.SIGINT, lambda number, frame: os._exit(_INTERRUPTED))
-        gc.set_threshold(200_000, 30, 30)  # what is loaded and parsed stays: collect rarely
+        gc.set_threshold(200_000, 30, 30)  # loaded and parsed objects stay: collect rarely
         from osc2tx.building.answers import Answer
 
         answer = Answer(sys.argv[1:])

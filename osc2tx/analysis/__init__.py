@@ -1,10 +1,10 @@
-"""Analysis of a checked program: what its constraints allow, and what can never happen.
+"""Analysis of a checked program: the values that its constraints allow, and unreachable parts.
 
 Input: a `SemanticModel` without errors; only the user's files are looked at. Output: an `Analysis`,
 and diagnostics OSC42x (constraints, errors) and OSC43x (warnings). `analyse` runs the parts:
 
-1. Constraints. `collect` gathers what constrains each type and its invocations, names made definite
-   by `parameter_lookup`; `overrides` drops the defaults that are replaced;
+1. Constraints. `collect` gathers the constraints of each type and its invocations, with names
+   resolved by `parameter_lookup`; `overrides` drops the defaults that are replaced;
    `operation_list` flattens expressions; `solver` propagates `domains` to a fixed point by
    `forward` and `backward` over `interval_arithmetic`. The result is the `ConstraintAnalysis` in
    `propagation`; `report_constraints` reports conflicts.
@@ -14,11 +14,11 @@ and diagnostics OSC42x (constraints, errors) and OSC43x (warnings). `analyse` ru
    open values; `cast_checks` judges its actors, `value_text` writes values in the units of the
    source.
 
-What actions and modifiers are besides their declarations says the catalogue (`library_facts`).
+The catalogue (`library_facts`) has the facts about actions and modifiers beyond their declarations.
 `tree_walk` walks syntax trees.
 
-Invariants: a contradiction that is reported is one; what cannot be known when compiling counts as
-unknown; nothing recurses along chains of expressions or members.
+Invariants: every reported contradiction is certain; values that are not known at compile time count
+as unknown; no function recurses along chains of expressions or members.
 """
 
 from osc2tx.analysis.analyse import Analysis, analyse

@@ -23,11 +23,11 @@ from osc2tx_shared.classes import dataclass
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Analysis:
-    """What was found out about a program.
+    """The result of the analysis of a program.
 
     Attributes:
-        constraints: What its constraints fix, bound and leave open.
-        levels: How far each scenario of the root file is worked out.
+        constraints: The values that its constraints fix, bound and leave open.
+        levels: The level of each scenario of the root file.
     """
 
     constraints: ConstraintAnalysis
@@ -41,13 +41,13 @@ def analyse(
     *,
     first_come: bool = False,
 ) -> Analysis:
-    """Analyse a program without errors; report contradictions, and what can never happen.
+    """Analyse a program without errors; report contradictions and unreachable parts.
 
     Args:
         model: The checked program.
-        sink: Where reports go.
+        sink: Receives the diagnostics.
         one_of: Which member of a `one_of` counts.
-        first_come: A duration and an `until` end with whichever comes first (dialect `carla`).
+        first_come: The first of duration and `until` ends a member (dialect `carla`).
     """
     nodes = {file: NodesByKind(file, closed=CONSTRAINTS) for file in model.files}
     usage = find_usage(model, nodes)

@@ -1,8 +1,8 @@
-"""How far a scenario is worked out: abstract, logical or concrete (§6.3).
+"""The level of a scenario: abstract, logical or concrete (§6.3).
 
-A scenario is concrete if nothing is left to choose: all parameters have values, every actor has a
-place and a speed to start with, there is a map, and everything comes to an end. It is logical if
-only choices out of given ranges and sets are left, and abstract if more is.
+A scenario is concrete if nothing is open: all parameters have values, every actor has a position
+and a speed at the start, there is a map, and every member ends. It is logical if only choices from
+stated ranges and sets are open, and abstract otherwise.
 """
 
 from __future__ import annotations
@@ -45,12 +45,12 @@ ORDER = list(Level)
 
 @dataclass(frozen=True, slots=True)
 class Opening:
-    """Something that is left open.
+    """An open choice.
 
     Attributes:
         text: Description for a list.
         span: Its position.
-        level: The level that it puts the scenario on.
+        level: The level that the scenario has because of it.
     """
 
     text: str

@@ -1,4 +1,4 @@
-"""Actors that a constraint says to be another actor (§7.3.11): two names of one."""
+"""Actors that a constraint equates with another actor (§7.3.11): two names of one."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ class SameActor:
     """The identity of an actor.
 
     Attributes:
-        other: The actor that it is.
+        other: The equal actor.
         name: Its name in the constraint.
-        constraint: The constraint that says so.
+        constraint: The constraint that equates them.
     """
 
     other: sym.FieldSymbol
@@ -58,7 +58,7 @@ def _actor(constraint: Constraint, expression: ast.Expression) -> sym.FieldSymbo
 
 
 def _may_be(target: sym.FieldSymbol, symbol: sym.FieldSymbol) -> bool:
-    """Whether an actor has the type of another one, and stands above it or is more special."""
+    """Whether an actor has the type of another one, and is declared above it or is more derived."""
     one, other = target.type, symbol.type
     if not isinstance(one, types.ActorType) or not isinstance(other, types.ActorType):
         return False

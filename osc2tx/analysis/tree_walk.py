@@ -83,7 +83,7 @@ class NodesByKind:
 
 
 def _child_fields(kind: type[ast.Node]) -> Callable[[ast.Node], tuple[object, ...]]:
-    """Return what reads the fields of a class that may hold a node or a tuple of nodes."""
+    """Return a getter of the fields of a class that may hold a node or a tuple of nodes."""
     found = {
         name: annotation
         for base in reversed(kind.__mro__)

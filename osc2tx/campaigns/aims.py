@@ -29,11 +29,11 @@ class Aim:
 
     @classmethod
     def parse(cls, text: str, measured: Sequence[str], batch: int) -> Aim:
-        """Read `min_ttc`, whose measure says which values are the worst ones, or `max:min_ttc`.
+        """Read `min_ttc`, whose measure defines the worst values, or `max:min_ttc`.
 
         Raises:
-            CampaignError: The measure does not say it.
-            SettingsError: There is no such measure among those that are taken.
+            CampaignError: The measure does not define the worst values.
+            SettingsError: The measure is not selected.
         """
         manner, sign, kpi = text.partition(":")
         if sign and manner in MANNERS:
@@ -43,8 +43,8 @@ class Aim:
         if declared not in MANNERS:
             raise CampaignError(
                 f"--search {text}: "
-                + ("it does not say which values are the worst ones" if measure else "no --kpi")
-                + f"; say which to look for: --search min:{text}, or max:{text}"
+                + ("its worst values are not defined" if measure else "no --kpi")
+                + f"; state which: --search min:{text}, or max:{text}"
             )
         return cls(text, declared, batch)
 

@@ -26,11 +26,11 @@ AHEAD = 2  # batches for each worker: one that it runs, one that waits for it
 
 
 class DaskEngine:
-    """A cluster of Dask that is there already.
+    """A running cluster of Dask.
 
     Args:
         address: `HOST:PORT` of its scheduler.
-        batch: How many rows a worker has at once.
+        batch: Number of rows that a worker has at a time.
         patience: Seconds to wait for the scheduler, and for a first worker.
     """
 
@@ -57,7 +57,7 @@ class DaskEngine:
             yield from _Flight(dask, client, plan, rows, self._batch, self._patience).results()
         except dask.CancelledError as error:
             raise CampaignError(
-                "the scheduler of the cluster is gone; repeat the command to resume"
+                "the scheduler of the cluster does not respond; repeat the command to resume"
             ) from error
         finally:
             client.close()
@@ -79,7 +79,7 @@ class _Flight:
         self._batch, self._patience = batch, patience
         self._flying: dict[Any, list[Row]] = {}
         self._suspects: deque[Row] = deque()
-        self._is_alone = False  # whether what flies is one suspect
+        self._is_alone = False  # whether one suspect is in flight
         self._workers, self._last_seen = 0, time.monotonic()
         try:
             self._parcel = parcel_of(plan)
@@ -149,7 +149,7 @@ class _Flight:
             if self._is_alone:
                 return [crashed(rows[0], attempts=2)]
             self._suspects.extend(rows)
-            self._shared = self._share()  # it may be what was given up
+            self._shared = self._share()  # it may be an abandoned row
             return []
         except self._dask.CancelledError:
             raise
@@ -177,10 +177,10 @@ def engine_by_name(
 
     Args:
         name: `local`, or `dask://HOST:PORT`.
-        batch: How many rows a worker has at once.
-        processes: How many workers there are here if `workers` does not say.
-        workers: How many are wanted.
-        timeout: Seconds by the clock that a row may take.
+        batch: Number of rows that a worker has at a time.
+        processes: Number of local workers if `workers` is not given.
+        workers: The requested number.
+        timeout: Wall-clock seconds that a row may take.
 
     Raises:
         CampaignError: There is none of this name, or it cannot do what is requested.
@@ -190,11 +190,11 @@ def engine_by_name(
     scheme, _, address = name.partition("://")
     host, _, port = address.rpartition(":")
     if scheme != "dask" or not host or not port.isdecimal():
-        raise CampaignError(f"--engine {name}: there is local and dask://HOST:PORT")
+        raise CampaignError(f"--engine {name}: use local or dask://HOST:PORT")
     for option, value in (("--workers", workers), ("--timeout", timeout)):
         if value is not None:
             raise CampaignError(
-                f"{option} is for --engine local: a cluster has its own workers, and a row there"
-                " cannot be ended from here"
+                f"{option} is for --engine local: a cluster has its own workers, whose rows cannot"
+                " be ended from here"
             )
     return DaskEngine(address, batch)

@@ -120,7 +120,7 @@ class Item:
         return 100.0 * (possible - len(self.holes())) / possible if possible else 100.0
 
     def name_of(self, cell: Cell) -> str:
-        """Return a cell as one would say it."""
+        """Return a cell in words."""
         if not self.parts:
             return f"{self.buckets[cell[0]]} {self.unit}".rstrip()
         named = zip(self.parts, cell, strict=True)
@@ -144,7 +144,7 @@ class Item:
         self.hits[tuple(index for index in found if index is not None)] += 1
 
     def position(self, value: Any) -> int | None:
-        """Return the bucket of a value; points come before the ranges around them."""
+        """Return the bucket of a value; points precede the ranges around them."""
         for index, bucket in enumerate(self.buckets):
             if bucket.value is not None and bucket.value == value:
                 return index
@@ -217,7 +217,7 @@ def coverage_of(store: Store) -> dict[str, Item]:
 def count_samples(
     items: dict[str, Item], samples: Iterable[tuple[int, str, Mapping[str, Any]]]
 ) -> None:
-    """Count what was sampled; an item that no model has has no buckets."""
+    """Count the samples; an item without a model has no buckets."""
     for number, kind, line in samples:
         name = line["name"]
         if name not in items:

@@ -45,7 +45,7 @@ def pairwise_rows(
                 yield shares
                 break
         else:
-            del missing[pair]  # constraints do not let them meet
+            del missing[pair]  # constraints exclude the combination
 
 
 def _completions(
@@ -99,7 +99,9 @@ class _Design:
 
     def __init__(self, columns: Sequence[Column], wanted: Wanted) -> None:
         if wanted.levels < 2:
-            raise CampaignError(f"--levels {wanted.levels}: a range has two ends, so two at least")
+            raise CampaignError(
+                f"--levels {wanted.levels}: a range has two ends, so use at least two"
+            )
         self._columns, self._wanted = columns, wanted
         self._levels = [levels_of(column, wanted.levels) for column in columns]
 
@@ -124,7 +126,7 @@ class GridSampler(_Design):
 
 
 class PairwiseSampler(_Design):
-    """Few rows in which each two levels of two parameters meet, where constraints let them."""
+    """Few rows that contain each allowed pair of levels of two parameters."""
 
     def __init__(
         self, columns: Sequence[Column], wanted: Wanted, is_allowed: Callable[[Row], bool]

@@ -21,10 +21,10 @@ OnProgress = Callable[["Progress"], None]
 
 @dataclass(frozen=True, slots=True)
 class Progress:
-    """How far a campaign is.
+    """The progress of a campaign.
 
     Attributes:
-        wanted: Number of rows in the end; None if unknown.
+        wanted: Requested number of rows; None if unknown.
         done: Rows in the store.
         failed: Rows in the store that did not succeed.
         new: Rows added since this call began.
@@ -51,10 +51,10 @@ def run_campaign(
     Args:
         plan: The common part of the rows.
         texts: The options of the runs, as they are written.
-        wanted: The sampler, and the number of rows in the end.
+        wanted: The sampler, and the requested number of rows.
         store: Holds the results, and possibly results of earlier calls.
         engine: Runs the rows.
-        on_progress: Called whenever rows were stored.
+        on_progress: Called after rows are stored.
 
     Raises:
         CampaignError: The store is of another campaign, or rows cannot be chosen or run.

@@ -2,8 +2,8 @@
 
 Each worker has a pipe of its own, reports each row as soon as it is done, and has only a few rows
 at once. So it is known which row a worker was at when it died: that one is tried once more, alone,
-and then is `crashed`; those behind it go to others. A worker that tells nothing any more, not even
-that it is alive, counts as dead.
+and then is `crashed`; those behind it go to others. A worker without any message, even of being
+alive, counts as dead.
 """
 
 from __future__ import annotations
@@ -49,9 +49,9 @@ class LocalEngine:
     """Processes of this machine.
 
     Args:
-        workers: How many.
-        batch: How many rows a worker has at once.
-        timeout: Seconds by the clock that a row may take; None for as long as it likes.
+        workers: Their number.
+        batch: Number of rows that a worker has at a time.
+        timeout: Wall-clock seconds that a row may take; None for no limit.
         stalled: Seconds of silence after which a worker counts as dead.
     """
 
@@ -110,7 +110,7 @@ class _Worker:
         self.pipe.send(rows)
 
     def end(self) -> None:
-        """End it at once."""
+        """End it immediately."""
         self.process.kill()
         self.process.join()
         self.pipe.close()
@@ -160,7 +160,7 @@ class _Pool:
         return again + take(self._rows, self._batch - len(again))
 
     def collect(self) -> list[RowResult]:
-        """Wait for what workers tell; return the outcomes of rows."""
+        """Wait for messages of workers; return the outcomes of rows."""
         pipes = {worker.pipe: worker for worker in self._workers}
         begin = time.monotonic()
         wait(list(pipes), timeout=self._patience())
@@ -227,7 +227,7 @@ class _Pool:
         self._workers.remove(worker)
         row = worker.rows.popleft()
         self._again.extendleft(reversed(worker.rows))
-        reason = f"took longer than {self._timeout:g} s by the clock"
+        reason = f"took longer than {self._timeout:g} s of wall-clock time"
         return RowResult(row, {}, CRASHED, reason, attempts=self._attempts.get(row.number, 0) + 1)
 
     def close(self) -> None:

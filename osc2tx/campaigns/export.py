@@ -77,5 +77,5 @@ def _csv(rows: list[dict[str, Any]]) -> str:
 
 
 def _field(value: Any) -> Any:
-    """Keep as text whatever a spreadsheet would take for a formula, as `report/export.js` does."""
+    """Mark text that a spreadsheet would read as a formula, as `report/export.js` does."""
     return f"'{value}" if isinstance(value, str) and value.startswith(FORMULA) else value

@@ -27,7 +27,7 @@ NO_MATTER = ("map-path", "seed", "trace", "report")
 def identity_of(
     plan: Plan, texts: Texts, executor: Executor, sampler: Sampler, wanted: Wanted
 ) -> dict[str, Any]:
-    """Return what makes a campaign another one, each item with a name that people know."""
+    """Return the identity of a campaign, each item with a readable name."""
     stated = {name: list(text) for name, text in sorted(texts.items()) if name not in NO_MATTER}
     return {
         "scenario": plan.scenario,
@@ -45,7 +45,7 @@ def identity_of(
 
 
 def _digest_of(files: Mapping[str, str]) -> str:
-    """Return a digest of what modules do: their comments and docstrings change no row."""
+    """Return a digest of modules without comments and docstrings, which change no row."""
     modules = {name: _code(text) for name, text in sorted(files.items()) if name.endswith(".py")}
     return hashlib.sha256(json.dumps(modules).encode()).hexdigest()
 
@@ -53,7 +53,7 @@ def _digest_of(files: Mapping[str, str]) -> str:
 def _code(text: str) -> str:
     try:
         tree = ast.parse(text)
-    except (SyntaxError, ValueError):  # loading it says why
+    except (SyntaxError, ValueError):  # loading it reports the reason
         return text
     for node in ast.walk(tree):
         if isinstance(node, (ast.Module, ast.ClassDef, ast.FunctionDef)) and ast.get_docstring(

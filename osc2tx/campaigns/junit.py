@@ -79,5 +79,5 @@ def _suite(root: etree.Element, results: Results, name: str, runs: Sequence[Run]
 
 
 def visible_lines(text: str) -> str:
-    """Return text without what XML cannot say, its lines kept."""
+    """Return text without characters that XML forbids; line ends are kept."""
     return "\n".join(map(visible, text.splitlines()))

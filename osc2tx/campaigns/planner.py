@@ -1,4 +1,4 @@
-"""Chooses the rows that are to be run: those that keep the constraints and are not done yet."""
+"""Selects the rows to run: those that satisfy the constraints and are not stored yet."""
 
 from __future__ import annotations
 
@@ -20,10 +20,10 @@ def columns_of(executor: Executor) -> list[Column]:
     """Return the parameters that a scenario draws, in order.
 
     Raises:
-        CampaignError: Hardly any point keeps the constraints.
+        CampaignError: Hardly any point satisfies the constraints.
         ScenarioError: It can have no values at all.
     """
-    executor.values_of(Row(0, 0))  # by a seed there are values, or it says why not
+    executor.values_of(Row(0, 0))  # a seed gives values, or a reason
     for seed in range(ATTEMPTS):
         try:
             _, point = executor.values_of(Row(0, seed, {}))
@@ -32,11 +32,11 @@ def columns_of(executor: Executor) -> list[Column]:
             continue
         assert point is not None
         return list(point.columns.values())
-    raise too_thin(f"none of {ATTEMPTS} points of the domain keeps the constraints", last)
+    raise too_thin(f"none of {ATTEMPTS} points of the domain satisfies the constraints", last)
 
 
 def why_left_out(executor: Executor, row: Row) -> ScenarioError | None:
-    """Return which constraint the values of a row break, or what has no result; None if none."""
+    """Return the constraint that the values of a row violate, or the error; else None."""
     try:
         executor.values_of(row)
     except SettingsError:
@@ -47,25 +47,25 @@ def why_left_out(executor: Executor, row: Row) -> ScenarioError | None:
 
 
 def too_thin(what: str, example: ScenarioError) -> CampaignError:
-    """Return what to say where hardly any point is left.
+    """Return the message for a sampler of which hardly any point is left.
 
     Args:
-        what: How many points were tried.
+        what: The number of tried points.
         example: Why one of them is left out.
     """
     return CampaignError(
-        f"{what}: the set of values is too thin for a sampler that leaves points out; --sampler"
-        f" random finds its way into it. For one, {example.source}: {example.message}"
+        f"{what}: too few points satisfy the constraints; use --sampler random."
+        f" Example: {example.source}: {example.message}"
     )
 
 
 class Planner:
-    """Yields rows until there are as many as wanted.
+    """Yields rows up to the requested number.
 
     Args:
-        executor: Knows the constraints.
+        executor: Evaluates the constraints.
         sampler: Gives the rows.
-        samples: How many are wanted; None for all that the sampler has.
+        samples: The requested number; None for all rows of the sampler.
         done: Numbers of the rows that were run.
         left_out: Numbers of those that break a constraint; grows.
 
@@ -88,10 +88,10 @@ class Planner:
         self.newly_left_out: list[int] = []
 
     def rows(self) -> Iterator[Row | None]:
-        """Yield the rows that are to be run; None as the sampler does.
+        """Yield the rows to run; None as the sampler does.
 
         Raises:
-            CampaignError: Hardly any point keeps the constraints.
+            CampaignError: Hardly any point satisfies the constraints.
         """
         in_a_row = 0
         for row in self._sampler.rows():
@@ -115,7 +115,7 @@ class Planner:
     def _too_thin(self, points: int, last: ScenarioError | None) -> CampaignError:
         assert last is not None, "it was left out"
         share = f"{self.accepted} of {points} points ({self.accepted / points:.3%})"
-        return too_thin(f"{share} keep the constraints, none of the last {MOST_LEFT_OUT}", last)
+        return too_thin(f"{share} satisfy the constraints, none of the last {MOST_LEFT_OUT}", last)
 
     def _keeps(self, row: Row) -> bool:
         if not self._sampler.is_checked or why_left_out(self._executor, row) is None:

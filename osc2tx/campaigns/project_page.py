@@ -23,9 +23,9 @@ class ScenarioResult:
         file: Its file.
         name: Its name.
         verdict: How its run ended.
-        expected: How it was to end.
-        reason: Why it ended so, if it is no success.
-        values: What the scenario fixes, by path.
+        expected: The expected verdict.
+        reason: The reason, if it is no success.
+        values: The values that the scenario fixes, by path.
         page: The page of the run, relative to that of the project; empty if there is none.
     """
 
@@ -40,7 +40,7 @@ class ScenarioResult:
 
 @dataclass(frozen=True, slots=True)
 class XmlYield:
-    """How many scenarios have OpenSCENARIO XML, and what keeps the others from it.
+    """Number of scenarios with OpenSCENARIO XML, and the obstacles of the others.
 
     Attributes:
         scenarios: Number of all scenarios.

@@ -42,7 +42,7 @@ create table sample (
 create table left_out (number integer primary key);
 """
 
-# Columns whose values depend on the machine and on what happened to it.
+# Columns whose values depend on the machine and its load.
 OF_THE_MACHINE = ("seconds", "attempts")
 COLUMNS = (
     *("number", "seed", "shares", "given", "parameters", "status", "reason", "source", "steps"),
@@ -69,13 +69,13 @@ PLAN_TYPES: Mapping[str, Any] = {
     **{"files": dict, "module": str, "scenario": str, "options": dict, "map_path": list},
     **{"measures": list, "fail_if": list, "digests": bool},
 }
-"""Types of what all rows have in common."""
+"""Types of the common data of all rows."""
 
 IDENTITY_TYPES: Mapping[str, Any] = {
     **{"scenario": str, "modules": str, "osc2tx": str, "sampler": str, "seed": int},
     **{"options": dict, "kpi": list, "fail-if": list},
 }
-"""Types of what makes a campaign another one."""
+"""Types of the identity of a campaign."""
 
 
 def row_of(run: Mapping[str, Any]) -> Row:

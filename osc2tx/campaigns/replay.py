@@ -23,16 +23,16 @@ def replay_row(
 
     Args:
         store: The campaign.
-        number: Of the row.
-        trace: Where its trace is to be written.
-        report: Where its report is to be written.
-        folders: Where its map is looked for first.
+        number: Number of the row.
+        trace: File for its trace.
+        report: File for its report.
+        folders: Folders that are searched for its map first.
 
     Returns:
         The name of the scenario, and how the run ended.
 
     Raises:
-        CampaignError: There is no such row, or the run is another one than the store has.
+        CampaignError: There is no such row, or the run differs from the stored one.
         ScenarioError: The row could not be run, and cannot.
     """
     run = store.run(number)
@@ -47,10 +47,12 @@ def replay_row(
         "digest": result.digest,
     }
     wrong = [
-        f"{name} {run[name]} was stored, {value} came out"
+        f"{name} {run[name]} was stored, the result is {value}"
         for name, value in found.items()
         if run[name] is not None and run[name] != value
     ]
     if wrong:
-        raise CampaignError(f"{store.path}: row {number} is another run now: {'; '.join(wrong)}")
+        raise CampaignError(
+            f"{store.path}: row {number} differs from the stored run: {'; '.join(wrong)}"
+        )
     return plan.scenario, result

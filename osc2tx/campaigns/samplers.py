@@ -42,10 +42,12 @@ class TableSampler:
         try:
             text = Path(file).read_text(encoding="utf-8-sig")
         except (OSError, ValueError) as error:
-            raise CampaignError(f"--sampler table:{file}: it cannot be read: {error}") from error
+            raise CampaignError(f"--sampler table:{file}: cannot be read: {error}") from error
         lines = [line for line in csv.reader(io.StringIO(text)) if line]
         if not lines:
-            raise CampaignError(f"--sampler table:{file}: it is empty; name parameters in a line")
+            raise CampaignError(
+                f"--sampler table:{file}: it is empty; the first line names parameters"
+            )
         names = [name.strip() for name in lines[0]]
         for number, line in enumerate(lines[1:]):
             if len(line) != len(names):
@@ -101,8 +103,8 @@ def sampler_by_name(
     Args:
         wanted: Its name, seed and size.
         columns: The parameters that the scenario draws.
-        is_allowed: Whether the values of a row keep the constraints.
-        findings: What a search goes by; grows meanwhile.
+        is_allowed: Whether the values of a row satisfy the constraints.
+        findings: Results for a search; grows meanwhile.
 
     Raises:
         CampaignError: There is none of this name, or it cannot do what is requested.
@@ -115,8 +117,8 @@ def sampler_by_name(
     option = "--search" if wanted.aim else f"--sampler {name}"
     if (wanted.aim or name in ("lhs", "sobol", "halton", "grid", "pairwise")) and not columns:
         raise CampaignError(
-            f"{option}: the scenario draws no values; give a parameter a range, or run it"
-            " with other seeds alone (--sampler random)"
+            f"{option}: the scenario draws no values; give a parameter a range, or vary only"
+            " the seed (--sampler random)"
         )
     if wanted.aim:
         return SearchSampler(columns, wanted.seed, wanted.aim, findings)

@@ -33,13 +33,13 @@ class Wanted:
 
     @property
     def is_endless(self) -> bool:
-        """Whether nothing says how many rows there are."""
+        """Whether the number of rows is not stated."""
         ends_by_itself = self.name.partition(":")[0] in ("grid", "pairwise", "table")
         return self.samples is None and not ends_by_itself
 
     @property
     def at_once(self) -> int:
-        """How many rows a worker is given at once: one if the choice of the next ones waits."""
+        """Number of rows per batch of a worker: one if the selection of the next ones waits."""
         return 1 if self.aim else 16
 
 
@@ -59,7 +59,7 @@ def wanted_rows(
     """
     if sampler and search:
         raise CampaignError(
-            f"--sampler {sampler}: a search chooses the rows; leave out one of both"
+            f"--sampler {sampler}: a search selects the rows; use only one of the options"
         )
     aim = Aim.parse(search, plan.measures, search_batch) if search else None
     return Wanted(
@@ -97,7 +97,7 @@ class Sampler(Protocol):
 
     @property
     def identity(self) -> Mapping[str, Any]:
-        """What else the meaning of a row depends on, besides name and seed."""
+        """Further inputs of the meaning of a row, besides name and seed."""
 
     @property
     def is_checked(self) -> bool:

@@ -84,7 +84,7 @@ class SearchSampler:
         return Row(trial.number, row_seed(self._seed, trial.number), shares)
 
     def _check(self, numbers: Sequence[int]) -> None:
-        """See that there is something to look for.
+        """Check that the KPI occurs.
 
         Raises:
             CampaignError: No row of the first batch has the KPI.

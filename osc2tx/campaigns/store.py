@@ -1,8 +1,8 @@
 """Keeps the outcomes of the rows of a campaign in one SQLite file.
 
-The driver alone writes. A row that arrives twice is stored once, and what was stored before a
-process was killed stays: SQLite's write-ahead log guarantees that. The file may be a stranger's or
-damaged: all that is read is checked, and every failure names the file and what of it is kept.
+Only the driver writes. A row that arrives twice is stored once, and stored rows survive a killed
+process: SQLite's write-ahead log guarantees that. The file may be foreign or damaged: all data are
+checked when read, and every failure names the file and the kept rows.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ from osc2tx_shared.links import target_outside
 
 
 class CampaignError(Exception):
-    """A campaign cannot be run, or its store cannot be used; the message says what to do."""
+    """A campaign cannot be run, or its store cannot be used; the message states the remedy."""
 
 
 FORMAT = 2
@@ -72,7 +72,7 @@ class _Database:
 
     @contextmanager
     def writing(self) -> Iterator[sqlite3.Connection]:
-        """Make all changes at once, or none of them."""
+        """Make all changes, or none of them."""
         with self._failures():
             self._base.execute("begin immediate")
             try:
@@ -84,8 +84,8 @@ class _Database:
                 raise
         if _file_of(self._path) != self._file:
             raise CampaignError(
-                f"{self._path}: the store was removed or replaced while it was in use; what was"
-                " stored since then is lost"
+                f"{self._path}: the store was removed or replaced during its use; rows stored"
+                " since then are lost"
             )
 
     @contextmanager
@@ -94,7 +94,7 @@ class _Database:
             yield
         except (sqlite3.Error, UnicodeDecodeError) as error:
             raise CampaignError(
-                f"{self._path}: {error}; the rows that were stored before are kept, as far as the"
+                f"{self._path}: {error}; rows that were stored before are kept, as far as the"
                 " file can be read"
             ) from error
 
@@ -127,7 +127,7 @@ class Store:
     def __init__(self, path: Path, *, is_new: bool = False) -> None:
         self.path = path
         if not path.exists() and not is_new:
-            raise CampaignError(f"{path}: there is no such store")
+            raise CampaignError(f"{path}: the store does not exist")
         try:
             if is_new:
                 if (target := target_outside(path)) is not None:
@@ -138,14 +138,14 @@ class Store:
                 path.parent.mkdir(parents=True, exist_ok=True)
                 if not os.access(path.parent, os.W_OK):
                     raise CampaignError(
-                        f"{path}: its folder cannot be written, so no rows can be added; name a"
-                        " store elsewhere with --store"
+                        f"{path}: its folder is read-only, so no rows can be added; name"
+                        " another store with --store"
                     )
             self._base = _Database(path, is_fixed=_is_fixed(path))
         except OSError as error:
-            raise CampaignError(f"{path}: it cannot be made: {error}") from error
+            raise CampaignError(f"{path}: cannot be created: {error}") from error
         except (ValueError, sqlite3.Error) as error:
-            raise CampaignError(f"{path}: it is no store of a campaign: {error}") from error
+            raise CampaignError(f"{path}: not a store of a campaign: {error}") from error
         try:
             if is_new:
                 self._make()
@@ -156,7 +156,7 @@ class Store:
                 error.__cause__, sqlite3.OperationalError
             ):
                 raise CampaignError(
-                    f"{path}: it is no store of a campaign: {error.__cause__}"
+                    f"{path}: not a store of a campaign: {error.__cause__}"
                 ) from error
             raise
 
@@ -174,7 +174,7 @@ class Store:
     def _check(self) -> None:
         ((found,),) = self._base.rows("pragma user_version")
         if found != FORMAT or not {"campaign", "run", "left_out"} <= self._tables():
-            raise CampaignError(f"{self.path}: it is no store of a campaign, or of another version")
+            raise CampaignError(f"{self.path}: not a store of a campaign, or of another version")
         self._base.execute("pragma synchronous = normal")
 
     def _tables(self) -> set[str]:
@@ -200,14 +200,14 @@ class Store:
 
     @property
     def plan(self) -> dict[str, Any]:
-        """What its rows have in common.
+        """The common data of its rows.
 
         Raises:
             CampaignError: The store is empty.
         """
         found = self._told("plan", PLAN_TYPES)
         if found is None:
-            raise CampaignError(f"{self.path}: nothing was run yet")
+            raise CampaignError(f"{self.path}: no rows yet")
         return found
 
     def _told(self, name: str, types: Mapping[str, Any]) -> dict[str, Any] | None:
@@ -246,10 +246,10 @@ class Store:
             base.execute("insert or replace into campaign values ('samples', ?)", (text,))
 
     def claim(self, identity: Mapping[str, Any], plan: Mapping[str, Any]) -> None:
-        """Make the store that of a campaign, or see that it is.
+        """Make the store that of a campaign, or check that it is.
 
         Raises:
-            CampaignError: It is that of another one; the message says what differs.
+            CampaignError: It is that of another one; the message states the differences.
         """
         known = self.identity
         if known is not None:
@@ -257,7 +257,7 @@ class Store:
             if differences:
                 raise CampaignError(
                     f"{self.path}: the store is of another campaign: {'; '.join(differences)}."
-                    " Take another --store, or the settings that it was begun with"
+                    " Use another --store, or the original settings"
                 )
             return
         values = [("identity", json.dumps(identity)), ("plan", json.dumps(plan))]
@@ -267,7 +267,7 @@ class Store:
     # --- rows ---
 
     def add(self, results: Iterable[RowResult], left_out: Iterable[int] = ()) -> None:
-        """Store the outcomes of rows, at once."""
+        """Store the outcomes of rows, in one transaction."""
         results = list(results)
         marks = ", ".join("?" * len(COLUMNS))
         collisions = [
@@ -326,7 +326,7 @@ class Store:
         query = f"select {', '.join(COLUMNS)} from run where number = ?"
         found = list(self._base.rows(query, (number,)))
         if not found:
-            why = "breaks a constraint, so it was left out" if number in self.left_out() else ""
+            why = "violates a constraint and was omitted" if number in self.left_out() else ""
             raise CampaignError(f"{self.path}: row {number} {why or 'was not run'}")
         return self._decoded(found[0])
 
@@ -335,7 +335,7 @@ class Store:
         yield from self._base.rows("select * from collision order by number, nth")
 
     def samples(self) -> Iterator[tuple[int, str, dict[str, Any]]]:
-        """Yield what coverage items sampled: number, `cover` or `record`, the line of the trace."""
+        """Yield the samples of coverage items: row, `cover` or `record`, line of the trace."""
         for number, kind, text in self._base.rows(
             "select number, kind, line from sample order by number, nth"
         ):
@@ -345,7 +345,7 @@ class Store:
             yield number, kind, line
 
     def digest(self) -> str:
-        """Return the SHA-256 of all that was found, without what depends on the machine."""
+        """Return the SHA-256 of all results that do not depend on the machine."""
         kept = [name for name in COLUMNS if name not in OF_THE_MACHINE]
         digest = hashlib.sha256()
         for query in (

@@ -42,7 +42,7 @@ class Failures:
 
 @dataclass(frozen=True, slots=True)
 class Results:
-    """All that a store says, read once.
+    """The contents of a store, read once.
 
     Attributes:
         place: Path of the store.
@@ -104,7 +104,7 @@ def replay_command(place: str, number: int) -> str:
 
 
 def summary_of(results: Results) -> dict[str, Any]:
-    """Return what `summary.json` says, see `docs/campaign-summary.schema.json`."""
+    """Return the contents of `summary.json`, see `docs/campaign-summary.schema.json`."""
     runs, identity = results.runs, results.identity
     statuses: dict[str, int] = {}
     for run in runs:

@@ -1,4 +1,4 @@
-"""The catalogue of the library: what each action and modifier is, and what objects there are.
+"""The catalogue of the library: facts about actions, modifiers and objects.
 
 `library.json` and `objects.json` are written by `tools/make_catalogue.py`, which joins the texts of
 the library, the classes of the runtime and the forms of OpenSCENARIO XML. Every stage may read it;

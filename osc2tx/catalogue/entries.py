@@ -19,9 +19,9 @@ class ActionEntry:
     Attributes:
         section: Of OpenSCENARIO DSL 2.2; empty if the standard does not have it.
         arguments: Parameters that the runtime takes.
-        required: Those it cannot do without.
-        modifiers: Modifiers that it honours.
-        modifiers_with: Which of them it honours with a value of a parameter, by that parameter;
+        required: The required ones.
+        modifiers: Modifiers that it supports.
+        modifiers_with: Those that it supports with a value of a parameter, by that parameter;
             `""`: without a value.
         moves: Whether it moves as its modifiers state, so that they must go together.
         physical: Whether it cannot let the actor jump.
@@ -64,7 +64,7 @@ class ModifierEntry:
         owner: The actor of which it is a member (`map`, `vehicle`); empty for members of actions.
         section: Of OpenSCENARIO DSL 2.2; empty if the standard does not have it.
         parameters: The parameters that the runtime takes.
-        required: Those it cannot do without.
+        required: The required ones.
         shape: Base of the shapes that it takes; `None` if it takes none.
         rules: Rules for combinations of arguments.
         combining: Its effect on other modifiers of the same action.
@@ -174,11 +174,11 @@ class ObjectTables:
     Attributes:
         methods: `physical_object.object_distance` to its parameters.
         fields: Members one can read, `movable_object.speed`.
-        objects: Type of actor or struct to what its constructor takes.
-        needed: Type of actor or struct to what its constructor cannot do without.
-        unknown: Members of actors that only the scenario can say.
+        objects: Type of actor or struct to the arguments of its constructor.
+        needed: Type of actor or struct to the required arguments of its constructor.
+        unknown: Members of actors that only the scenario can state.
         reserved: What actors of the runtime have besides actions.
-        declared: Structs that are objects as actors are, not values, to what these have.
+        declared: Structs that are objects like actors, not values, to their members.
         lane_bound: Types of actors that follow lanes.
         enums: Names of the types of the library's enums.
         units: Names of the library's units.

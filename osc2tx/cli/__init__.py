@@ -34,14 +34,17 @@ COMMANDS: Mapping[str, tuple[str, str]] = {
     "check": ("osc2tx.cli.check:check", "Report errors and warnings in scenario files."),
     "build": ("osc2tx.cli.build:build", "Write a py_trees module for every scenario file."),
     "run": ("osc2tx.cli.run:run", "Run a scenario in the embedded world."),
-    "test": ("osc2tx.cli.test:test", "Run scenarios as tests; fail if one does not end well."),
-    "campaign": ("osc2tx.cli.campaign:campaign", "Run a scenario many times, with other values."),
-    "verify": ("osc2tx.cli.verify:verify", "Check whether a trace does what its scenario states."),
+    "test": ("osc2tx.cli.test:test", "Run scenarios as tests."),
+    "campaign": (
+        "osc2tx.cli.campaign:campaign",
+        "Run a scenario many times with different values.",
+    ),
+    "verify": ("osc2tx.cli.verify:verify", "Check a trace against the conditions of its scenario."),
     "report": ("osc2tx.cli.report:report", "Make pages of traces: one run, two, or a folder."),
     "import": ("osc2tx.cli.import_:import_", "Make scenarios of OpenSCENARIO XML documents."),
-    "fmt": ("osc2tx.cli.fmt:fmt", "Lay scenario files out in the style of the standard."),
+    "fmt": ("osc2tx.cli.fmt:fmt", "Format scenario files in the style of the standard."),
     "tree": ("osc2tx.cli.tree:tree", "Draw the behavior tree of a scenario."),
-    "graph": ("osc2tx.cli.graph:graph", "Show who uses what in a project."),
+    "graph": ("osc2tx.cli.graph:graph", "Show the uses of declarations, files and maps."),
     "map": ("osc2tx.cli.map:map", "Describe a road map, and report its errors."),
     "world": ("osc2tx.cli.world:world", "Check a simulator against the requirements of runs."),
     "config": ("osc2tx.cli.config:config", "Show the effective settings and their origins."),
@@ -55,7 +58,7 @@ PRINTED_BY_CLICK = frozenset(["-h", "--help", "--version"])
 
 
 class Commands(click.Group):
-    """The group of commands; each is loaded when it is asked for."""
+    """The group of commands; each is loaded on demand."""
 
     def list_commands(self, context: click.Context) -> list[str]:
         """Return the names in the order of the help page."""
@@ -100,8 +103,8 @@ def main(arguments: Sequence[str] | None = None, answer: Answer | None = None) -
     """
     session = Session(answer=answer)
     code = _exit_code(sys.argv[1:] if arguments is None else arguments, session)
-    gc.freeze()  # the process ends: no need to look for garbage in large trees
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # and there is nothing left to interrupt
+    gc.freeze()  # the process ends: no garbage collection of large trees
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # and nothing is left to interrupt
     sys.exit(code)
 
 
@@ -140,7 +143,7 @@ def _run(arguments: Sequence[str], session: Session) -> int:
 
         put(format_exc(), err=True)
         complain(BUG_REPORT)
-        return _fail(Exit.BUG, "osc2tx failed; this is a bug of it", arguments, session)
+        return _fail(Exit.BUG, "internal error of osc2tx", arguments, session)
 
 
 def _explain_usage(error: click.ClickException) -> None:

@@ -108,7 +108,7 @@ def build(
     reads_only = check_only or diff or diff_against is not None
     if emit is not None:
         if out_dir is not None or reads_only or watch or force or prune:
-            raise click.UsageError("--emit prints to the terminal: give it only paths")
+            raise click.UsageError("--emit prints to the terminal and takes only paths")
         if reporter.form != "text":
             raise click.UsageError("--emit and --output-format both print to standard output")
         return _print_product(paths, given, emit, reporter)
@@ -116,7 +116,7 @@ def build(
         raise click.UsageError("--affected-since is for one build, not --watch or --diff-against")
     if (reads_only and (watch or force or prune)) or (diff_against and (check_only or diff)):
         raise click.UsageError(
-            "of --check/--diff, --diff-against, --watch choose one; "
+            "use one of --check/--diff, --diff-against and --watch; "
             "--force and --prune are for builds that write"
         )
     if diff and reporter.form != "text":
@@ -159,7 +159,7 @@ def _stated_out_dir(project: Config, here: Path) -> Path:
         click.UsageError: There is none, or it is not in the project, which may be a stranger's.
     """
     if project.out is None or project.folder is None:
-        raise click.UsageError("say where the modules go, as in `-o generated`, or set `out`")
+        raise click.UsageError("state the output folder, as in `-o generated`, or set `out`")
     out_dir = seen_from(project.out, here)
     if not real_path(project.out).is_relative_to(real_path(project.folder)):
         raise click.UsageError(
@@ -229,7 +229,7 @@ def _write(task: _Task) -> tuple[Exit, Sequence[FileResult]]:
 
 
 def _say_losses(reporter: Reporter, results: Sequence[FileResult]) -> None:
-    """Summarize the results of scenarios as XML; one line each where nothing but XML is wanted."""
+    """Summarize the results of scenarios as XML; one line each if only XML is requested."""
     losses = [(result, loss) for result in results for loss in result.losses]
     for result, loss in losses:
         if result.job.options.target == "xosc":
@@ -238,7 +238,7 @@ def _say_losses(reporter: Reporter, results: Sequence[FileResult]) -> None:
     written = sum(loss.is_written for loss in others)
     if written < len(others):
         scenarios = count_of(len(others), "scenario")
-        reporter.say(f"XML for {written} of {scenarios}; the reports say why")
+        reporter.say(f"XML for {written} of {scenarios}; the reports state the reasons")
 
 
 def _compare(task: _Task, *, check: bool, diff: bool) -> Exit:
@@ -260,7 +260,7 @@ def _fault(change: Change) -> str:
 
 
 def _orphaned(change: Change) -> str:
-    return f"{change.state.value}: {change.origin} makes no such file"
+    return f"{change.state.value}: {change.origin} does not produce this file"
 
 
 def _diff_against(task: _Task, revision: str) -> Exit:

@@ -38,7 +38,7 @@ FILE = click.Path(dir_okay=False, path_type=Path)
     type=click.Path(exists=True, path_type=Path),
     multiple=True,
     metavar="PATH",
-    help="Folder with maps, or the map itself, if it is no longer where it was.",
+    help="Folder with maps, or the map itself, if it was moved.",
 )
 @quiet_option
 def replay(
@@ -151,7 +151,7 @@ def _write_overview(place: Path, campaigns: Sequence[Results], pages: Sequence[P
 
 
 def _tell_whose(store: Store) -> None:
-    """Say that a module runs that came with the store."""
+    """State that a module of the store runs."""
     complain(
         f"{store.path}: runs {store.plan['module']} as stored: code of the author of the store"
     )

@@ -49,7 +49,7 @@ class CampaignCommand(RunCommand):
     without = frozenset({"trace", "report"})
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """Take from the settings of the file whatever the command line leaves open."""
+        """Complete the command line by the settings of the file."""
         for path in (Path(arg) for arg in args if arg.endswith((".osc", ".py"))):
             with suppress(ConfigError):  # reported when the settings are read
                 stated = ConfigFiles().for_source(path).campaign_settings(path)
@@ -71,30 +71,30 @@ def _stated(name: str, texts: tuple[str, ...]) -> str | tuple[str, ...]:
 
 @click.command(cls=CampaignCommand)
 @click.argument("file", metavar="FILE", type=click.Path())
-@click.option("--scenario", metavar="NAME", help="Which scenario of the file to run.")
+@click.option("--scenario", metavar="NAME", help="Scenario of the file to run.")
 @click.option(
     "--samples",
     metavar="N",
     type=click.IntRange(min=1),
-    help="Number of rows in the end; default: the number of the last call.",
+    help="Number of rows.  [default: that of the last call]",
 )
 @click.option(
     "--sampler",
     metavar="|".join(SAMPLERS),
-    help="Which values rows have.  [default: random]",
+    help="Method that chooses the values of rows.  [default: random]",
 )
 @click.option(
     "--search",
     metavar="KPI",
-    help="Choose rows by the outcomes of others: look for the worst value of a KPI; `min:KPI` or"
-    " `max:KPI` says which that is.",
+    help="Search for the worst value of a KPI: choose rows by the results of others; `min:KPI` or"
+    " `max:KPI` defines the worst value.",
 )
 @click.option(
     "--search-batch",
     metavar="N",
     type=click.IntRange(min=1),
     default=16,
-    help="How many rows a search chooses together.  [default: 16]",
+    help="Number of rows that a search chooses together.  [default: 16]",
 )
 @click.option(
     "--levels",
@@ -108,46 +108,46 @@ def _stated(name: str, texts: tuple[str, ...]) -> str | tuple[str, ...]:
     "place",
     metavar="FILE",
     type=click.Path(dir_okay=False, path_type=Path),
-    help="Where the results are.  [default: SCENARIO.campaign]",
+    help="File of the results.  [default: SCENARIO.campaign]",
 )
 @click.option(
     "--engine",
     metavar="local|dask://HOST:PORT",
     default="local",
-    help="Where rows are run: in processes here, or on a cluster of Dask.  [default: local]",
+    help="Where rows run: in local processes, or on a Dask cluster.  [default: local]",
 )
 @click.option(
     "--workers",
     metavar="N",
     type=click.IntRange(min=1),
-    help="How many processes run rows.  [default: one for each processor]",
+    help="Number of processes.  [default: one per processor]",
 )
 @click.option(
     "--batch",
     metavar="N",
     type=click.IntRange(min=1),
-    help="How many rows a process is given at once.  [default: 16, 1 in a search]",
+    help="Number of rows per batch of a process.  [default: 16, 1 in a search]",
 )
 @click.option(
     "--timeout",
     metavar="SECONDS",
     type=click.FloatRange(min=0.0, min_open=True),
-    help="By the clock: a row that takes longer is ended, and counts as crashed.",
+    help="Wall-clock limit: a row that takes longer is ended, and counts as crashed.",
 )
 @click.option(
     "--kpi",
     "kpis",
     metavar="NAME",
     multiple=True,
-    help="Measures to take: all of osc2tx, or those named here; `none` for nothing.",
+    help="Measures to take; `none` for none.  [default: all of osc2tx]",
 )
 @click.option(
     "--fail-if",
     metavar="KPI<NUMBER",
     multiple=True,
-    help="A row fails also if this holds, in SI units: min_ttc<1.5",
+    help="A row also fails if this condition is true, in SI units: min_ttc<1.5",
 )
-@click.option("--digests", is_flag=True, help="Make each trace, and store its digest.")
+@click.option("--digests", is_flag=True, help="Compute each trace, and store its digest.")
 @compile_options
 @report_options
 def run(
@@ -241,8 +241,8 @@ def summary(name: str, store: Store, ended: Progress, aim: Aim | None) -> Iterat
     if ended.left_out:
         share = ended.done / (ended.done + ended.left_out)
         yield (
-            f"  {count_of(ended.left_out, 'point')} of the sampler break a constraint and were left"
-            f" out: {share:.3%} were accepted"
+            f"  {count_of(ended.left_out, 'point')} of the sampler violate a constraint and were"
+            f" omitted: {share:.3%} were accepted"
         )
     if aim:
         best = aim.best(store.measures())
@@ -279,7 +279,7 @@ OnProgress = Callable[[Progress], None]
 
 @contextmanager
 def progress_bar(name: str) -> Iterator[OnProgress]:
-    """Yield what shows progress: rate, failures, remaining time; nothing beside a terminal."""
+    """Yield the progress bar: rate, failures, remaining time; only on a terminal."""
     if not is_watched():
         yield lambda progress: None
         return

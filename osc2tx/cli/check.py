@@ -47,14 +47,16 @@ if TYPE_CHECKING:
 @click.option(
     "--write-baseline",
     is_flag=True,
-    help="Write the warnings to the `baseline` of the settings: they are not reported again.",
+    help="Write the warnings to the `baseline` of the settings, which are then not reported.",
 )
 @click.option("--fix", "is_fixing", is_flag=True, help="Apply the safe fixes to the files.")
 @click.option(
-    "--unsafe-fixes", "unsafe", is_flag=True, help="Apply also fixes that may not be meant."
+    "--unsafe-fixes", "unsafe", is_flag=True, help="Also apply fixes that may not be intended."
 )
-@click.option("--diff", "show_diff", is_flag=True, help="Write nothing; print what fixes change.")
-@click.option("--no-cache", is_flag=True, help="Check unchanged files again as well.")
+@click.option(
+    "--diff", "show_diff", is_flag=True, help="Write nothing; print the changes of fixes."
+)
+@click.option("--no-cache", is_flag=True, help="Also check unchanged files again.")
 @cache_option
 @workers_option
 @stdin_filename
@@ -75,9 +77,9 @@ def check(
 ) -> Exit:
     """Report errors and warnings in scenario files; folders are searched for .osc files.
 
-    Where the map of a scenario is found, a run is prepared up to its first step.
+    If the map of a scenario is found, a run is prepared up to its first step.
 
-    Without PATH, `sources` of the settings file count; `-` is standard input, whose fixed text
+    Without PATH, `sources` of the settings file are used; `-` is standard input, whose fixed text
     goes to standard output.
     """
     if show_diff and reporter.form != "text":
@@ -152,10 +154,10 @@ def _checked(
 def _write_baselines(
     baselines: Baselines, results: Sequence[FileResult], whole: Sequence[Path], reporter: Reporter
 ) -> None:
-    """Make all warnings of files known.
+    """Write the warnings of files to the baseline.
 
     Raises:
-        click.UsageError: No settings say where to.
+        click.UsageError: The settings name no baseline.
     """
     written = baselines.write(apply_suppressions(results).shown, whole)
     if whole and not written:
@@ -173,7 +175,7 @@ def _keep_answer(
     results: Sequence[FileResult],
     configs: ConfigFiles,
 ) -> None:
-    """Keep what was printed on files, if all that decides it is known."""
+    """Store the printed answer about files, if all of its inputs are known."""
     files: list[str] = []
     for result in results:
         if result.bug or result.dependencies is None or result.source is None:

@@ -14,7 +14,7 @@ _STYLES = {"+": "green", "-": "red", "@": "cyan"}
 
 def print_diff(path: str, old: str | None, new: str | None) -> None:
     """Print how an output changes."""
-    from osc2tx.building.compare import diff_lines  # loads what lays out revisions
+    from osc2tx.building.compare import diff_lines  # loads the code that extracts revisions
 
     color = wants_color()
     for line in diff_lines(visible(path), old, new):

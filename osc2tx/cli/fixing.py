@@ -35,10 +35,10 @@ class Fixes:
 
 
 def fixes_to_apply(*, is_fixing: bool, unsafe: bool, show_diff: bool) -> Fixes:
-    """Return which fixes a command line with one of these options asks for.
+    """Return the fixes that a command line with these options requests.
 
     Raises:
-        click.UsageError: If unsafe fixes are allowed, and none is asked for.
+        click.UsageError: If unsafe fixes are allowed without `--fix` or `--diff`.
     """
     if not is_fixing and not show_diff:
         raise click.UsageError("--unsafe-fixes is for --fix and --diff")
@@ -76,7 +76,7 @@ def fix_files(
 
 
 def fix_input(job: Job, text: str, fixes: Fixes, reporter: Reporter) -> Exit:
-    """Print the fixed text of standard input, or what changes in it."""
+    """Print the fixed text of standard input, or its diff."""
     fixed: FixedText = fix_text(job, text, unsafe=fixes.unsafe)
     if fixes.show_diff:
         print_diff(job.name, text, fixed.text)

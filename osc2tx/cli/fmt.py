@@ -37,10 +37,10 @@ def fmt(
     stdin_filename: str | None,
     reporter: Reporter,
 ) -> Exit:
-    """Lay scenario files out in the style of the standard; folders are searched for .osc files.
+    """Format scenario files in the style of the standard; folders are searched for .osc files.
 
     Tokens and comments are not changed. Files with syntax errors are not touched. Without PATH,
-    `sources` of the settings file count; `-` is standard input, and its text goes to standard
+    `sources` of the settings file are used; `-` is standard input, and its text goes to standard
     output.
     """
     if show_diff and reporter.form != "text":

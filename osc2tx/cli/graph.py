@@ -1,4 +1,4 @@
-"""`osc2tx graph`: who uses what in a project."""
+"""`osc2tx graph`: the uses of declarations, files and maps in a project."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ FORMATS = ("text", "json", "dot", "svg")
 
 @click.command()
 @click.argument("wanted", metavar="[NAME|FILE|MAP]", required=False)
-@click.option("--reverse", is_flag=True, help="Show what uses it, not what it uses.")
+@click.option("--reverse", is_flag=True, help="Show its users instead.")
 @affected_option
 @click.option(
     "--output-format",
@@ -36,9 +36,9 @@ FORMATS = ("text", "json", "dot", "svg")
     help="Form of the graph; `dot` is for Graphviz.",
 )
 def graph(wanted: str | None, reverse: bool, affected: str | None, form: str) -> Exit:
-    """Show what a declaration, file or map uses, or what uses it, directly or through others.
+    """Show the parts that a declaration, file or map uses, or its users, direct and indirect.
 
-    Without a name, `text` sums up the project and the pictures show its files; sources that no
+    Without a name, `text` summarizes the project and the pictures show its files; sources that no
     other file uses are one node for each folder. `--affected-since` lists the sources that a change
     can affect, with the files that changed.
     """
@@ -64,7 +64,7 @@ def graph(wanted: str | None, reverse: bool, affected: str | None, form: str) ->
     start = usage.find(_name_in_project(wanted, index))
     if not start:
         meant = did_you_mean(wanted, usage.names())
-        remedy = meant or "`osc2tx graph` sums up what there is"
+        remedy = meant or "`osc2tx graph` lists the declarations"
         raise click.UsageError(f"the project has no `{wanted}`; {remedy}")
     edges = usage.users if reverse else usage.uses
     if form == "text":
@@ -78,7 +78,7 @@ def graph(wanted: str | None, reverse: bool, affected: str | None, form: str) ->
 
 
 def _name_in_project(wanted: str, index: SourceIndex) -> str:
-    """Return what the project calls a file that was named by its path; else what was written."""
+    """Return the name in the project of a file that is named by its path, else the text."""
     file = index.files.get(Path(os.path.realpath(wanted)))
     return wanted if file is None else file.name
 

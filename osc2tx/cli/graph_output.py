@@ -1,4 +1,4 @@
-"""Graphs of who uses what: text, JSON, Graphviz, SVG."""
+"""Graphs of uses: text, JSON, Graphviz, SVG."""
 
 from __future__ import annotations
 
@@ -32,8 +32,8 @@ class Graph:
     """A part of the graph of a project.
 
     Attributes:
-        nodes: In order.
-        edges: What each node uses.
+        nodes: Its nodes, in order.
+        edges: The nodes that each node uses.
     """
 
     nodes: Sequence[Node]
@@ -44,8 +44,8 @@ def render_tree(start: Sequence[Node], edges: Mapping[Node, Sequence[Node]]) -> 
     """Yield the lines of a tree for each start; a node that was shown before is not opened again.
 
     Args:
-        start: Where to begin.
-        edges: What each node leads to.
+        start: The first node.
+        edges: The targets of each node.
     """
     seen: set[Node] = set()
     for root in start:
@@ -112,7 +112,7 @@ class _Point(NamedTuple):
 
 
 def render_svg(graph: Graph) -> str:
-    """Return a picture: users left of what they use; edges to the same node run together."""
+    """Return a picture: users to the left of their nodes; edges to one node are bundled."""
     own = _own_columns(graph)
     edges = _edges(graph, own)
     columns = _ordered(edges, own)
@@ -226,7 +226,7 @@ def _ordered(
 
 
 def _users_first(graph: Graph) -> list[Node]:
-    """Return the nodes so that each comes before what it uses, as far as there is no circle."""
+    """Return the nodes in topological order, users first, as far as there is no cycle."""
     done: dict[Node, None] = {}
     opened: set[Node] = set()
     for root in graph.nodes:

@@ -75,9 +75,11 @@ class Result:
     metavar="DIR",
     multiple=True,
     type=click.Path(path_type=Path),
-    help="Folder that catalogs are looked for in, besides those of the documents.",
+    help="Folder of catalogs, besides those of the documents.",
 )
-@click.option("--scenario-name", metavar="NAME", help="Name of the scenario, of a single document.")
+@click.option(
+    "--scenario-name", metavar="NAME", help="Name of the scenario; for a single document."
+)
 @click.option("--force", is_flag=True, help="Replace scenarios and libraries that were changed.")
 @click.option("--allow-approx", is_flag=True, help="Accept approximations and omissions.")
 @click.option(
@@ -100,9 +102,9 @@ def import_(
 ) -> Exit:
     """Make scenarios of OpenSCENARIO XML documents; folders are searched for .xosc files.
 
-    Each document becomes NAME.osc, with NAME.import.json on how exactly it says the same; each
-    catalog that is used becomes a library file. `-` is standard input. A scenario or library that
-    exists with another text, perhaps an edited one, is only replaced with --force.
+    Each document becomes NAME.osc, with a report of exactness, NAME.import.json; each catalog that
+    is used becomes a library file. `-` is standard input. An existing scenario or library with
+    another text is only replaced with --force.
 
     The exit code is 0 if all is exact, 3 if not (0 with --allow-approx), 4 if a document cannot be
     read.
@@ -206,14 +208,14 @@ def _checked(result: Result, out: Path) -> Result:
         if each.severity is Severity.ERROR
     )
     if faults or compilation.ir is None:
-        result.imported.report.measure(None, "a check of the scenario finds errors")
+        result.imported.report.measure(None, "the check of the scenario reports errors")
     else:
         _measure(result, compilation)
     return Result(result.imported, text, faults, result.distribution)
 
 
 def _measure(result: Result, compilation: Compilation) -> None:
-    """Let the report say how far a run of the scenario is from its document."""
+    """Add the deviation of a run of the scenario from its document to the report."""
     imported, given = result.imported, {}
     if result.distribution is not None:
         given = result.distribution.first
@@ -285,7 +287,7 @@ def _sum_up(results: Sequence[Result], form: str) -> None:
 
 
 def _sum_up_runs(reports: Sequence[ImportReport]) -> None:
-    """Say how many runs do what their documents do, and why there is none of others."""
+    """Print the number of runs that equal their documents, and why others were not compared."""
     runs = [each.measured for each in reports if each.measured is not None]
     same = sum(1 for each in runs if each.is_exact)
     for each in reports:

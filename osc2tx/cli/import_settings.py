@@ -39,7 +39,7 @@ def write_settings(results: Sequence[Result], out: Path) -> None:
         return
     place = out / SETTINGS
     if place.exists():
-        complain(f"{place}: exists, left as it is")
+        complain(f"{place}: exists, unchanged")
         return
     write_text(place, "\n".join(lines) + "\n")
 

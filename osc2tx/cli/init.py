@@ -66,7 +66,7 @@ def init(folder: Path, std: str, library: Path | None) -> Exit:
             with place.open("x", encoding="utf-8", newline="\n") as file:
                 file.write((templates / template).read_text(encoding="utf-8") + own)
         except FileExistsError:
-            complain(f"{place}: exists, left as it is")
+            complain(f"{place}: exists, unchanged")
         except OSError as error:
             complain(f"{place}: cannot be written: {error.strerror}")
             return Exit.UNREADABLE

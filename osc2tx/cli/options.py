@@ -44,7 +44,7 @@ def stated_sources(project: Config, what: str) -> tuple[str, ...]:
         click.UsageError: If it states none.
     """
     if not project.sources:
-        raise click.UsageError(f"say what to {what}: name a file or folder, or set `sources`")
+        raise click.UsageError(f"nothing to {what}: name a file or folder, or set `sources`")
     return tuple(str(seen_from(path, Path.cwd())) for path in project.sources)
 
 
@@ -60,14 +60,14 @@ workers_option = click.option(
     "workers",
     type=click.IntRange(min=1),
     metavar="N",
-    help="Work in N processes.  [default: one for each processor]",
+    help="Number of processes.  [default: one per processor]",
 )
 cache_option = click.option(
     "--cache-dir",
     "cache",
     type=click.Path(file_okay=False, path_type=Path),
     envvar="OSC2TX_CACHE_DIR",
-    help="Folder of earlier results, as CI keeps it.  [default: in the user's cache]",
+    help="Folder of earlier results, for CI.  [default: in the user's cache]",
 )
 
 
@@ -75,7 +75,7 @@ affected_option = click.option(
     "--affected-since",
     "affected",
     metavar="GIT_REV",
-    help="Only sources that a change since a revision can affect.",
+    help="Only sources that changes since a revision can affect.",
 )
 
 
@@ -105,8 +105,8 @@ _NAMES = {
 
 
 def scenario_option(verb: str) -> Callable[..., Any]:
-    """Return the option that says which scenario of a FILE to run or draw."""
-    help_ = f"Which scenario of the file to {verb}."
+    """Return the option that selects the scenario of a FILE."""
+    help_ = f"Scenario of the file to {verb}."
     return click.option("--scenario", metavar="NAME", shell_complete=_complete_scenario, help=help_)
 
 
@@ -127,7 +127,7 @@ def _complete_scenario(
 
 
 def compile_options(command: Callable[..., Any]) -> Callable[..., Any]:
-    """Add the options that say how to compile; the command gets them as `given`."""
+    """Add the options of compilation; the command gets them as `given`."""
 
     @wraps(command)
     def with_given(
@@ -160,7 +160,7 @@ def compile_options(command: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def target_options(command: Callable[..., Any]) -> Callable[..., Any]:
-    """Add the options that say what to make; they become part of `given`."""
+    """Add the options of outputs; they become part of `given`."""
 
     @wraps(command)
     def with_target(
@@ -193,8 +193,8 @@ def target_options(command: Callable[..., Any]) -> Callable[..., Any]:
         click.option(
             "--target",
             type=click.Choice(TARGETS),
-            help="What to make: `xosc` reports what OpenSCENARIO XML cannot say as errors, `all`"
-            " leaves such XML out.  [default: all]",
+            help="Outputs: `xosc` reports constructs that OpenSCENARIO XML cannot express as"
+            " errors, `all` omits such XML.  [default: all]",
         ),
         click.option(
             "--xml-version",
@@ -209,19 +209,19 @@ def target_options(command: Callable[..., Any]) -> Callable[..., Any]:
         click.option(
             "--allow-approx",
             is_flag=True,
-            help="Write XML also where it means only nearly the same.",
+            help="Write approximated XML as well.",
         ),
         click.option(
             "--signal",
             metavar="NAME@SECONDS",
             multiple=True,
-            help="For XML: when an event from outside comes.",
+            help="For XML: time of an external event.",
         ),
         click.option(
             "--spawn",
             metavar="ACTOR=ROAD,LANE,S",
             multiple=True,
-            help="For XML: where an actor starts that the scenario does not place.",
+            help="For XML: start position of an actor that the scenario does not place.",
         ),
         click.option(
             "--map-path",
@@ -232,7 +232,7 @@ def target_options(command: Callable[..., Any]) -> Callable[..., Any]:
         click.option(
             "--no-verify",
             is_flag=True,
-            help="Do not play the XML: its grades are then computed, not measured.",
+            help="Do not play the XML: its grades are computed, not measured.",
         ),
     )
     for option in reversed(options):

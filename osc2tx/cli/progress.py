@@ -45,7 +45,7 @@ def progress_bar(label: str, *, is_kept: bool | None = None) -> Iterator[Show]:
 def _interrupted(done: int, total: int, *, is_kept: bool) -> str:
     if not done:
         return "interrupted"
-    kept = "kept: the next run does the others" if is_kept else "lost, as there is no cache"
+    kept = "kept: the next run completes the others" if is_kept else "lost, as there is no cache"
     return f"interrupted: {done} of {total} files are done and {kept}"
 
 

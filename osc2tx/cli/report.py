@@ -14,7 +14,9 @@ from osc2tx_shared.text import complain, say
 
 @click.command()
 @click.argument("traces", metavar="TRACE [TRACE] | FOLDER", nargs=-1, required=True, type=Path)
-@click.option("-o", "--out", type=Path, metavar="PATH", help="The page; for a FOLDER, where to.")
+@click.option(
+    "-o", "--out", type=Path, metavar="PATH", help="The page; for a FOLDER, the output folder."
+)
 @click.option(
     "--map-path", type=Path, multiple=True, metavar="PATH", help="Folder with maps, or the map."
 )
@@ -22,7 +24,7 @@ def report(traces: tuple[Path, ...], out: Path | None, map_path: tuple[Path, ...
     """Make the report of a run from its trace, or of two runs over each other.
 
     Of a FOLDER, every trace (.jsonl) below it gets a page, and index.html lists them all. Without
-    --out, pages stand beside their traces. A map that is not found is left out, with a warning.
+    --out, pages are beside their traces. A map that is not found is omitted, with a warning.
     """
     if len(traces) > 2:
         raise click.UsageError("a page shows one run or two; for more, give their folder")

@@ -1,7 +1,7 @@
 """Output of a command: diagnostics in the requested form, a summary, an exit code.
 
-Text for people goes to stderr and the summary to stdout; with a form for programs, that form alone
-goes to stdout, and all else to stderr.
+Text for people goes to stderr and the summary to stdout; a form for programs goes to stdout alone,
+everything else to stderr.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ OutputFormat: TypeAlias = Literal["text", "json", "sarif", "github", "rdjson"]
 OUTPUT_FORMATS: tuple[OutputFormat, ...] = get_args(OutputFormat)
 FORMATS_FOR_READERS: tuple[OutputFormat, ...] = ("text", "github")
 MOST_SHOWN = 50  # diagnostics of one file, where people read them
-BUG_REPORT = "osc2tx: this is a bug of osc2tx; please report it with the lines above"
+BUG_REPORT = "osc2tx: internal error; please report it with the lines above"
 
 
 class Exit(IntEnum):
@@ -133,7 +133,7 @@ class Reporter:
         faults: Sequence[FileFault] = (),
         baselines: Baselines | None = None,
     ) -> tuple[Exit, Report]:
-        """Collect what there is to print.
+        """Collect the report.
 
         Args:
             compilations: The files.
@@ -142,7 +142,7 @@ class Reporter:
             baselines: Hold the warnings that are not reported.
 
         Returns:
-            The exit code they call for, and the report.
+            The exit code, and the report.
         """
         most = self.most_shown
         if most is None:
@@ -219,15 +219,15 @@ class Reporter:
 
 def _address(context: click.Context, parameter: click.Parameter, value: str | None) -> str | None:
     if value is not None and not re.fullmatch(r"https?://[!-~]+", value):
-        raise click.BadParameter("is no address that begins with `https://`")
+        raise click.BadParameter("is not an address that begins with `https://`")
     return value
 
 
-quiet_option = click.option("-q", "--quiet", is_flag=True, help="Print errors alone.")
+quiet_option = click.option("-q", "--quiet", is_flag=True, help="Print only errors.")
 
 
 def report_options(command: Callable[..., Any]) -> Callable[..., Any]:
-    """Add the options that say how to report; the command gets a `reporter`."""
+    """Add the options of reports; the command gets a `reporter`."""
 
     @wraps(command)
     def with_reporter(
@@ -262,7 +262,7 @@ def report_options(command: Callable[..., Any]) -> Callable[..., Any]:
             "--docs-url",
             metavar="URL",
             callback=_address,
-            help="Where your copy of this documentation is published: SARIF, rdjson link to it.",
+            help="Address of a copy of this documentation, for links in SARIF and rdjson.",
         ),
     )
     for option in reversed(options):
@@ -271,11 +271,11 @@ def report_options(command: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def report_failure(message: str, arguments: Sequence[str], session: Session) -> None:
-    """Print a document that says why there is nothing else, if the reader waits for one.
+    """Print a document with the reason of a failed start, if a document is requested.
 
     Args:
         message: Why the command did not begin.
-        arguments: The command line; it may be wrong, so only the form is looked for.
+        arguments: The command line; it may be invalid, so only the form is read.
         session: Knows whether there is a document already.
     """
     form = _form_asked_for(arguments)
@@ -329,7 +329,7 @@ def _print_text(report: Report) -> None:
     put(f"{text}\n", err=True, colored=color)
     for file, count in report.hidden.items():
         complain(f"{file}: {count} more not shown" if file else f"{count} more not shown")
-    complain(f"`osc2tx explain {report.diagnostics[0].code}` says more about a code.")
+    complain(f"`osc2tx explain {report.diagnostics[0].code}` explains the code.")
 
 
 def found(report: Report) -> str:

@@ -82,7 +82,7 @@ def stated_world(args: Sequence[str]) -> str:
 OWN_OPTIONS = f"{__name__}.own_options"
 
 Finding: TypeAlias = tuple[str, str, str | None]
-"""What a run reports: code, message and place."""
+"""A finding of a run: code, message and position."""
 
 Texts: TypeAlias = Mapping[str, Sequence[str]]
 """Options as they are written, by name."""
@@ -124,7 +124,7 @@ def _run_source(
     bugs = run_all([compilation], lambda item: item.module)
     exit_code, _ = reporter.judge([compilation], bugs)
     is_text = reporter.form == "text"
-    if is_text or exit_code is not Exit.OK:  # a document is printed once, with what the run finds
+    if is_text or exit_code is not Exit.OK:  # one document, with the findings of the run
         reporter.report([compilation], bugs)
     if exit_code is not Exit.OK:
         return exit_code
@@ -170,7 +170,7 @@ def _run_one_of(
     reporter: Reporter,
     findings: list[Finding],
 ) -> Exit:
-    """Run a scenario, print how it ended, and collect what is to be a diagnostic."""
+    """Run a scenario, print its outcome, and collect its diagnostics."""
     scenario = choose_scenario(scenarios, wanted, path)
     given = str(path) if path.suffix == ".osc" else None
     try:
@@ -195,7 +195,7 @@ def _run_one_of(
 def choose_scenario(
     scenarios: Mapping[str, type[Scenario]], wanted: str | None, path: Path
 ) -> type[Scenario]:
-    """Return the scenario that was asked for, as a generated module chooses it."""
+    """Return the requested scenario, as a generated module selects it."""
     if not scenarios:
         raise click.UsageError(f"{path} declares no scenario")
     try:
@@ -205,7 +205,7 @@ def choose_scenario(
 
 
 def option_texts(written: str | bool | tuple[str, ...] | None) -> tuple[str, ...]:
-    """Return what was written for an option; a flag is written `true`."""
+    """Return the text of an option; a flag is `true`."""
     if isinstance(written, bool):
         return ("true",) if written else ()
     return (written,) if isinstance(written, str) else written or ()
@@ -225,13 +225,13 @@ def merge_settings(config: Config, path: Path, given: Texts) -> RunSettings:
 
 
 def settings_from(texts: Texts, path: Path) -> RunSettings:
-    """Return the settings that options say, as they are written, for a scenario file."""
+    """Return the settings of options, as texts, for a scenario file."""
     settings = read_options(texts)
     return replace(settings, map_path=(*settings.map_path, real_path(path).parent))
 
 
 def with_maps_of(given: GivenOptions, settings: RunSettings) -> GivenOptions:
-    """Return compile options with which maps are looked for where a run looks for them."""
+    """Return compile options that search maps in the folders of a run."""
     *folders, _beside_the_file = settings.map_path
     return replace(given, map_path=tuple(map(str, folders)))
 

@@ -22,20 +22,20 @@ UNNAMED = "stdin.osc"
 stdin_filename = click.option(
     "--stdin-filename",
     metavar="PATH",
-    help="With `-` for PATH: what to call the text, and where its settings and imports are.",
+    help="With `-` for PATH: path of the text, for messages, settings and imports.",
 )
 
 
 def is_standard_input(paths: tuple[str, ...], name: str | None) -> bool:
-    """Whether a command line asks for the text of standard input.
+    """Whether a command line requests the text of standard input.
 
     Raises:
         click.UsageError: If it requests files as well, or names a file that it does not request.
     """
     if WORD in paths and len(paths) > 1:
-        raise click.UsageError("`-` stands for standard input, and for nothing beside it")
+        raise click.UsageError("`-` is standard input, and cannot be combined with other paths")
     if name is not None and WORD not in paths:
-        raise click.UsageError("--stdin-filename is for `-`, the text of standard input")
+        raise click.UsageError("--stdin-filename requires `-`, the text of standard input")
     return paths == (WORD,)
 
 

@@ -32,9 +32,9 @@ FILE = click.Path(dir_okay=False, path_type=Path)
     "--where",
     metavar="'NAME == VALUE'",
     multiple=True,
-    help="Only scenarios that fix this value; also != < <= > >=. Repeated: all of them.",
+    help="Only scenarios that fix this value; also != < <= > >=. May be repeated.",
 )
-@click.option("--shard", metavar="K/N", help="Only the K-th of N parts, as for jobs of CI.")
+@click.option("--shard", metavar="K/N", help="Only the K-th of N parts, for jobs of CI.")
 @affected_option
 @workers_option
 @click.option(

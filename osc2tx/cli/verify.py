@@ -49,9 +49,9 @@ def verify(
 ) -> Exit:
     """Check whether the conditions of a scenario hold in a finished TRACE.
 
-    What its modifiers state is measured on the states of the trace, as every run does it. FILE is
-    the scenario or its module; without, the one that the trace names is looked for beside the
-    trace and in the current folder. The exit code is 5 if a condition fails its phase.
+    Its modifiers are checked on the states of the trace, as in a run. FILE is the scenario or its
+    module; by default the one that the trace names, beside the trace or in the current folder. The
+    exit code is 5 if a condition fails its phase.
     """
     try:
         run = read_trace(trace)
@@ -79,7 +79,7 @@ def _find(trace: Path, name: str) -> Path:
         for place in (folder / name, folder / Path(name).name):
             if name and place.is_file():
                 return place
-    raise InputError(f"{trace}: its scenario `{name}` is not beside it; name the file")
+    raise InputError(f"{trace}: its scenario `{name}` is not found; name the file")
 
 
 def _verified(

@@ -61,8 +61,8 @@ def world() -> None:
 @scenario_option("check for")
 @click.option("--map-path", metavar="DIR", multiple=True, help="Folder with maps.")
 @click.option("--dt", metavar="SECONDS", help="Length of a step.")
-@click.option("--drive", is_flag=True, help="Spawn and move actors to find out more.")
-@click.option("--fix", is_flag=True, help="Remove what other clients have left behind.")
+@click.option("--drive", is_flag=True, help="Spawn and move actors for further checks.")
+@click.option("--fix", is_flag=True, help="Remove the remains of other clients.")
 @compile_options
 @report_options
 def check(

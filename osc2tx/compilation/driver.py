@@ -61,7 +61,7 @@ class Compilation:
     Attributes:
         path: The file.
         name: Its name in diagnostics and generated files; relative, forward slashes.
-        options: How to compile it.
+        options: Its options.
         sink: The diagnostics so far.
         lookups: The paths searched for imported files, with their contents.
         depends_on_packages: Reports depend on the packages with actions that are installed.
@@ -86,16 +86,16 @@ class Compilation:
 
         Args:
             path: The file.
-            name: What to call it.
-            options: How to compile it.
+            name: Its name in diagnostics.
+            options: Its options.
             roots: Folders whose files it may import, besides its own folder, and to which
                 names are relative.
             is_trusted: Whether this very file was named; otherwise it is not read if it is a
                 link to somewhere outside of the folders.
             text: The text, for a file that does not exist on disk.
-            options_of: Gives the options for other files; those of this one if left out.
-            memory: Imported files that were compiled by themselves, shared by several files.
-            unsaved: Texts that count in place of files, by path with links followed.
+            options_of: Returns the options of other files; by default those of this one.
+            memory: Separately compiled imported files, shared by several files.
+            unsaved: Texts that replace files, by path with links followed.
         """
         self.path = path
         self.name = name
@@ -130,7 +130,7 @@ class Compilation:
 
     @cached_property
     def ast(self) -> File | None:
-        """The syntax tree of what could be understood."""
+        """The syntax tree of the valid parts."""
         if self.source is None:
             return None
         parsed = parse(self.source, self.sink, allow=self._relaxed)
@@ -153,7 +153,7 @@ class Compilation:
 
     @cached_property
     def recovered_model(self) -> SemanticModel | None:
-        """The program without what could not be parsed; what is wrong with it is not reported."""
+        """The program without unparsable parts; its errors are not reported."""
         return None if self.ast is None else self.model or self._program(self.ast, DiagnosticSink())
 
     def _program(self, file: File, sink: DiagnosticSink) -> SemanticModel:
@@ -166,7 +166,7 @@ class Compilation:
 
     @cached_property
     def analysis(self) -> Analysis | None:
-        """What constraints allow, and how far the scenarios are worked out."""
+        """The values that constraints allow, and the levels of the scenarios."""
         if self.model is None or self._failed():
             return None
         return stages.analyse_constraints(self.model, self.options, self.sink)
@@ -187,7 +187,7 @@ class Compilation:
 
     @cached_property
     def is_supported(self) -> bool:
-        """Whether the backend can write all of it; reports what it cannot."""
+        """Whether the backend supports all of it; reports unsupported constructs."""
         if self.ir is None:
             return False
         if self.options.target != "xosc":
@@ -222,7 +222,7 @@ class Compilation:
 
     @cached_property
     def declared(self) -> Declarations:
-        """What the program declares, for the modules that may share it."""
+        """The declarations of the program, for the modules that may share it."""
         from osc2tx.backends.py_trees.sharing import Declarations
 
         assert self.ir is not None, "there is a module"
@@ -276,7 +276,7 @@ class Compilation:
         return any(self.lookups[place].text is not None for place in places)
 
     def is_of(self, source: SourceFile, lookups: Mapping[Path, Lookup]) -> bool:
-        """Whether a text, and what is found for its imports, is what was compiled here."""
+        """Whether a text, with the present imports, is the compiled one."""
         if self.source is None or self.source.text != source.text:
             return False
         return all(
@@ -295,7 +295,7 @@ class Compilation:
     def xml(self) -> tuple[XmlScenario, ...]:
         """The scenarios of the file as OpenSCENARIO XML, each with its result.
 
-        Empty for a library, if there are errors, and if only modules are asked for.
+        Empty for a library, if there are errors, and if only modules are requested.
         """
         if self.ir is None or not self.ir.scenarios or self.options.target == "py":
             return ()
@@ -310,7 +310,7 @@ class Compilation:
 
     @cached_property
     def graded_xml(self) -> tuple[XmlScenario, ...]:
-        """The same with measured grades, as builds write them, if that is wanted."""
+        """The same with measured grades, as builds write them, if this is requested."""
         if self.ir is None or not self.options.xml.verify:
             return self.xml
         from osc2tx.grading import Source, graded
@@ -355,18 +355,18 @@ class Compilation:
 
     @property
     def losses(self) -> tuple[LossEntry, ...]:
-        """How the scenarios fared on their way to XML, as far as that was asked for."""
+        """The XML results of the scenarios, as far as they are requested."""
         return tuple(map(loss_of, self.graded_xml))
 
     def _report_missing_maps(self, module: Module) -> None:
-        """Report maps that are not there, and note where they were looked for."""
+        """Report missing maps, and record the searched paths."""
         folders = [self.path.parent, *map(Path, self.options.xml.map_path)]
         for place in report_missing_maps(module, folders, self.sink):
             self.lookups[place] = look_up(place)
 
     @property
     def start(self) -> Span:
-        """The place of what concerns the file as a whole, even if there is no text."""
+        """The span of findings about the whole file, even if there is no text."""
         return Span(self.source or SourceFile(self.name, "", self.path), 0, 0)
 
     @property

@@ -23,7 +23,7 @@ class Reportable(Protocol):
 
     @property
     def start(self) -> Span:
-        """The place of what concerns the file as a whole, even if there is no text."""
+        """The span of findings about the whole file, even if there is no text."""
 
     @property
     def reports(self) -> Sequence[Diagnostic]:
@@ -46,7 +46,7 @@ class LossEntry:
         scenario: Its name.
         is_written: Whether there is XML.
         summary: Its report, in one line.
-        reasons: What keeps it from being XML.
+        reasons: The obstacles to XML.
     """
 
     scenario: str
@@ -56,7 +56,7 @@ class LossEntry:
 
 
 def apply_suppressions(compilations: Sequence[Reportable]) -> SuppressionResult:
-    """Return what was reported on several files, each report once, and what comments suppress.
+    """Return the diagnostics of several files, each once, and the suppressed ones.
 
     A report in a file that several others import counts once; a suppression there is used if it
     is of use to one of them.

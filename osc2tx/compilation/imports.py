@@ -40,7 +40,7 @@ def _is_file_name(name: str) -> bool:
 
 
 def places_text(place: Path, folders: Sequence[Path]) -> str:
-    """Return a sentence on where a module was looked for.
+    """Return a sentence on the searched folders.
 
     Args:
         place: Its file, relative to each of the folders.
@@ -88,11 +88,11 @@ def _entries(folder: Path, *, is_folder: bool) -> list[str]:
 
 @dataclass(frozen=True, slots=True)
 class Lookup:
-    """What was found where an imported file could be.
+    """The search result at a possible path of an imported file.
 
     Attributes:
         path: The place, links followed; empty if no file can have such a name.
-        text: The content of the file; `None` if nothing was read.
+        text: The content of the file; `None` if it was not read.
         is_refused: Whether a file may exist that was not read, or could not be.
     """
 
@@ -132,8 +132,8 @@ class ImportLoader:
             roots: Folders whose files may be imported, besides that of the file.
             sink: Receives diagnostics.
             relaxed: Deviations from the grammar that the dialect allows.
-            import_paths: Further such folders, in which modules are looked for last.
-            unsaved: Texts that count in place of files, by path with links followed.
+            import_paths: Further such folders, which are searched last.
+            unsaved: Texts that replace files, by path with links followed.
         """
         self._folder = real_path(path).parent
         self._prefix = posixpath.dirname(name)
@@ -173,11 +173,11 @@ class ImportLoader:
         return found
 
     def _module(self, statement: ast.Import, folder: Path) -> ast.File | None:
-        """Look for `a.b` beside the importing file, then in the roots; the first one counts."""
+        """Search `a.b` beside the importing file, then in the roots; the first one counts."""
         place, written = module_place(statement.module), ".".join(statement.module)
         if place is None:
             advice = 'to import a file by its path write `import "lib/cars.osc"`'
-            return self._refuse(statement, f"`{written}` is no name of a module", advice)
+            return self._refuse(statement, f"`{written}` is not a name of a module", advice)
         for start in (folder, *self._search):
             found = self._open(statement, start / place, written)
             if found is not None:
@@ -185,7 +185,7 @@ class ImportLoader:
         return None
 
     def help_for(self, statement: ast.Import) -> str | None:
-        """Return what may help if there is no module of a name."""
+        """Return the help for a module that is not found."""
         place, source = module_place(statement.module), statement.span.source
         if place is None or source.path is None:
             return None
@@ -214,7 +214,7 @@ class ImportLoader:
             self.lookups[asked] = Lookup(str(path), is_refused=True)
             return self._refuse(
                 statement,
-                f"`{written}` lies outside of the folders that may be imported from",
+                f"`{written}` is outside of the folders for imports",
                 "name the folder that holds both files, put an `osc2tx.toml` there, or name that of"
                 " the library with `-I` or in `import_paths`",
             )
@@ -254,8 +254,8 @@ class ImportLoader:
     def _name_of(self, path: Path) -> str:
         """Return the name of an imported file.
 
-        A file that another one hides, as it is of the same name in a folder that goes before, is
-        called by the way that leads to it from the root file: no module could import it.
+        A file that is hidden by one of the same name in an earlier folder is named by its relative
+        path from the root file: no module can import it.
         """
         root = self._named.root_of(path, self._libraries)
         if root is not None:

@@ -32,7 +32,7 @@ def report_missing_maps(
         sink: Takes OSC443.
 
     Returns:
-        Where maps were looked for in the project, so that a change is noticed.
+        The searched paths of maps in the project, so that a change is noticed.
     """
     looked_for: list[Path] = []
     reported: set[str] = set()

@@ -1,4 +1,4 @@
-"""The modules that the module of a file needs, and what was compiled to know them."""
+"""The modules that the module of a file needs, and the compilations that determine them."""
 
 from __future__ import annotations
 

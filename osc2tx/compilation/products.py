@@ -1,4 +1,4 @@
-"""What a compilation makes: files, and facts for reports as plain data."""
+"""The outputs of a compilation: files, and facts for reports as plain data."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def files_of_module(module: GeneratedModule) -> tuple[Output, ...]:
 
 
 def files_of_xml(scenarios: Sequence[XmlScenario]) -> tuple[Output, ...]:
-    """Return scenarios as OpenSCENARIO XML, each with what goes with it."""
+    """Return scenarios as OpenSCENARIO XML, each with its report and files."""
     return tuple(
         Output(f"{scenario.infix}{suffix}", text)
         for scenario in scenarios
@@ -61,7 +61,7 @@ def loss_of(scenario: XmlScenario) -> LossEntry:
 
 
 def report_losses(scenarios: Iterable[XmlScenario], sink: DiagnosticSink) -> None:
-    """Report what keeps scenarios from being XML."""
+    """Report the obstacles to XML."""
     for scenario in scenarios:
         for entry in scenario.report.obstacles:
             sink.report(entry.code, entry.span, entry.message, help=entry.help)
@@ -76,9 +76,9 @@ def entries_of(
     """Return the levels of scenarios as plain data, for reports.
 
     Args:
-        levels: Of each scenario.
+        levels: The level of each scenario.
         model: The program.
-        analysis: What its constraints allow.
+        analysis: The analysis of its constraints.
         lowered: The program in the IR, which states what can run by itself; `None` before that.
     """
     from osc2tx.analysis.fixed_values import fixed_values

@@ -23,7 +23,7 @@ class Roots:
     """The folders of a project, links followed.
 
     Attributes:
-        sources: Folders of sources, in the order in which modules are looked for.
+        sources: Folders of sources, in the order of the search for modules.
         settings: The folder of the settings file, if there is one.
     """
 

@@ -38,7 +38,7 @@ class Alone(Protocol):
 
     @property
     def declared(self) -> Declarations:
-        """What its program declares."""
+        """The declarations of its program."""
 
     @property
     def sharing(self) -> Sharing:
@@ -51,15 +51,15 @@ def find_siblings(
     alone: Callable[[SourceFile], Alone],
     is_source: Callable[[str], bool],
 ) -> tuple[dict[str, Sibling], dict[str, str]]:
-    """Return the modules that the one of a file may import, and why not the others.
+    """Return the modules that the module of a file may import, and why it cannot import the others.
 
     Both by the names of their sources.
 
     Args:
         module: The IR of the file.
         own: The file.
-        alone: Compiles an imported file for itself.
-        is_source: Tells whether the folder that is built has a file of a name.
+        alone: Compiles an imported file separately.
+        is_source: Whether the built folder has a file of a name.
     """
     from osc2tx.backends.py_trees.sharing import Sibling
 

@@ -36,7 +36,7 @@ def build_model(
 def analyse_constraints(
     model: SemanticModel, options: CompileOptions, sink: DiagnosticSink
 ) -> Analysis:
-    """Return what constraints allow, and how far the scenarios are worked out."""
+    """Return the values that constraints allow, and the levels of the scenarios."""
     from osc2tx.analysis import analyse
 
     with room_for_trees():

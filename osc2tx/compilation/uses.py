@@ -30,7 +30,7 @@ class UsedFile(NamedTuple):
     """An imported file.
 
     Attributes:
-        name: What tells it from others, the same in every folder.
+        name: Its unique name, the same in every folder.
         text: Its text.
     """
 
@@ -43,10 +43,10 @@ class Statement:
     """A statement at the level of the file.
 
     Attributes:
-        keyword: What it begins with, as `scenario` or `extend`.
-        name: What it declares or extends, as written: `vehicle.swerve`; empty if nothing.
+        keyword: Its first word, as `scenario` or `extend`.
+        name: The declared or extended name, as written: `vehicle.swerve`; empty if nothing.
         provides: The names that lead to it; `None` if it always counts.
-        declares: The name that it declares, if it does not extend something.
+        declares: The name that it declares, unless it is an extension.
         words: The words in it.
         tokens: Its tokens as one text.
     """
@@ -101,7 +101,7 @@ def _parts(
     reached: Collection[int],
     twice: Sequence[str],
 ) -> Iterator[str]:
-    yield " ".join(twice)  # names that may collide, in whatever file
+    yield " ".join(twice)  # names that may collide, in any file
     for file, statements in split:
         yield file.name
         for each in statements:

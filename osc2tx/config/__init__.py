@@ -1,7 +1,7 @@
 """Settings from files: `[tool.osc2tx]` in pyproject.toml, or osc2tx.toml.
 
-The file nearest to the source, upward, is the one that counts; in one folder osc2tx.toml goes
-before pyproject.toml. The command line beats the file.
+The nearest file above the source is used; in one folder osc2tx.toml precedes pyproject.toml. The
+command line overrides the file.
 
     std = "2.1"
     sources = ["scenarios"]        # what `osc2tx build` builds, and where to

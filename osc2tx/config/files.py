@@ -24,7 +24,7 @@ class ConfigFiles:
         """Return the settings for a source file; for a link, those at the link itself.
 
         Raises:
-            ConfigError: If the settings file is unreadable or says something unknown.
+            ConfigError: If the settings file is unreadable or has unknown settings.
         """
         if source.parent not in self._resolved:
             self._resolved[source.parent] = real_path(source.parent)
@@ -44,11 +44,11 @@ class ConfigFiles:
     def unmatched_tables(self) -> list[str]:
         """Return a sentence for each table of files that do not exist.
 
-        Only the settings of sources that were asked for are looked at.
+        Only the settings of the requested sources are checked.
         """
         configs = {config.path: config for config in self._by_folder.values()}
         return [
-            f"{config.path}: [{name}] is for no file: {why}"
+            f"{config.path}: [{name}] matches no file: {why}"
             for path, config in configs.items()
             if path in self._used
             for table, why in self._missing(config)
@@ -70,7 +70,7 @@ class ConfigFiles:
             patterns -= {pattern for pattern in patterns if config.matches(pattern, source)}
         yield from ((f"scenarios.{name}", f"there is no `{name}.osc`") for name in sorted(names))
         for pattern in sorted(patterns):
-            yield f'files."{pattern}"', "no source is called like that"
+            yield f'files."{pattern}"', "no source has this name"
 
     def _for_folder(self, folder: Path) -> Config:
         if folder not in self._by_folder:

@@ -87,8 +87,8 @@ class ScenarioConfig:
         options: Compile options of this file.
         run: Run option to its text, in the syntax of the command line.
         campaign: Option of `osc2tx campaign run`, likewise.
-        codes: Codes of warnings, by the setting that states what to do about them.
-        verdict: What a test of its scenarios is to end with.
+        codes: Codes of warnings, by their setting.
+        verdict: The expected verdict of a test of its scenarios.
     """
 
     options: GivenOptions = GivenOptions()
@@ -135,13 +135,13 @@ class Config:
 
     Attributes:
         path: The file; `None` if there is none and every setting has its default.
-        prefix: The table of the file that is ours; empty if all of it is.
+        prefix: The table of osc2tx in the file; empty for the whole file.
         options: Compile options for all files.
         scenarios: Tables of single files, by the stem of the file name.
-        files: Tables by pattern of the paths of files; a later one goes before an earlier one.
+        files: Tables by pattern of the paths of files; a later one overrides an earlier one.
         sources: Files and folders of the project.
         source_folders: Their folders, links followed.
-        out: Where to.
+        out: The output folder.
         map_paths: Folders with maps, for all files.
         baseline: The file of warnings that are known.
     """
@@ -159,11 +159,11 @@ class Config:
 
     @property
     def folder(self) -> Path | None:
-        """The folder that the file stands for: all in it belongs to one project."""
+        """The folder of the project: all files in it belong to it."""
         return self.path.parent if self.path else None
 
     def tables_for(self, source: Path) -> list[tuple[str, ScenarioConfig]]:
-        """Return the tables of a file with their names, the one that goes before all first."""
+        """Return the tables of a file with their names, the overriding one first."""
         names = self._names_of(source) if self.files else ()
         found = [
             (f'files."{pattern}"', table)
@@ -218,7 +218,7 @@ class Config:
     def codes(self, setting: str, source: Path) -> frozenset[str]:
         """Return the codes of warnings that a setting (`ignore`, `errors`) names for a file.
 
-        A table takes a code out of what those name that it goes before.
+        A table removes its codes from those that overridden tables name.
         """
         found: set[str] = set()
         for _, table in reversed(self.tables_for(source)):
@@ -227,7 +227,7 @@ class Config:
         return frozenset(found)
 
     def verdict(self, source: Path) -> str:
-        """Return what a test of the scenarios of a file is to end with."""
+        """Return the expected verdict of a test of the scenarios of a file."""
         stated = (table.verdict for _, table in self.tables_for(source))
         return next((each for each in stated if each is not None), VERDICTS[0])
 
@@ -237,7 +237,7 @@ class Config:
         return any(place.is_relative_to(real_path(source)) for source in self.sources)
 
     def settings_in_force(self, source: Path | None, given: GivenOptions) -> Iterator[InForce]:
-        """Yield what counts for a file, or for a folder, with where it is from."""
+        """Yield the effective settings of a file, or of a folder, with their origins."""
         tables = self.tables_for(source) if source else []
         layers = [
             (given, Origin("command line")),

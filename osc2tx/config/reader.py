@@ -28,7 +28,7 @@ def read_folder(folder: Path) -> Config | None:
     """Return the content of the settings file of a folder; `None` if there is none.
 
     Raises:
-        ConfigError: If it is unreadable or says something unknown.
+        ConfigError: If it is unreadable or has unknown settings.
     """
     own, project = (folder / name for name in SETTINGS_FILES)
     if own.is_file():

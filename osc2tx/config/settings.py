@@ -49,14 +49,14 @@ COMPILE_SETTINGS = (
     Setting("std", "Version of the standard.", STANDARDS),
     Setting("dialect", "Dialect of the sources.", DIALECTS),
     Setting("one_of", "Meaning of `one_of`.", ONE_OF_POLICIES),
-    Setting("target", "What to make; `all`: modules, and XML where it is exact.", TARGETS),
+    Setting("target", "Outputs; `all`: modules, and XML where it is exact.", TARGETS),
     Setting(
         "xml_version",
         "Version of OpenSCENARIO XML.",
         (DEFAULT_XML_VERSION, *(v for v in reversed(XML_VERSIONS) if v != DEFAULT_XML_VERSION)),
     ),
     Setting("xml_profile", "Tool that is to read the XML.", XML_PROFILES),
-    Setting("allow_approx", "Write XML also where it means only nearly the same.", is_flag=True),
+    Setting("allow_approx", "Write approximated XML as well.", is_flag=True),
     Setting(
         "import_paths",
         "Folders where `import a.b` finds `a/b.osc`, if it is not in the project.",
@@ -100,7 +100,7 @@ RUN_SETTINGS = (
 )
 # Options of `osc2tx campaign run` for one file, likewise.
 CAMPAIGN_SETTINGS = (
-    Setting("samples", "Number of rows in the end.", is_single=True),
+    Setting("samples", "Number of rows.", is_single=True),
     Setting("sampler", "Method that chooses the values of rows.", is_single=True),
     Setting("search", "The KPI whose worst value is searched.", is_single=True),
     Setting("search-batch", "Number of rows that a search chooses together.", is_single=True),
@@ -108,7 +108,7 @@ CAMPAIGN_SETTINGS = (
     Setting("kpi", "Measures to take.", is_list=True),
     Setting("fail-if", "A row also fails if this condition holds.", is_list=True),
     Setting("timeout", "Wall-clock seconds that a row may take.", is_single=True),
-    Setting("workers", "How many processes run rows.", is_single=True),
-    Setting("digests", "Make each trace, and store its digest.", is_flag=True),
+    Setting("workers", "Number of processes.", is_single=True),
+    Setting("digests", "Compute each trace, and store its digest.", is_flag=True),
 )
 TABLES = ("scenarios", "files")  # of tables, one for each scenario file or pattern of files

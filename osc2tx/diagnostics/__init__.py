@@ -1,7 +1,7 @@
 """Diagnostics: the findings of the compiler about a source text.
 
 A diagnostic is data (code, severity, message, spans, help); a stage puts it into a
-`DiagnosticSink` and continues. Rendering is a separate matter.
+`DiagnosticSink` and continues. Rendering is separate.
 
 Modules, in reading order: `source` (texts and spans), `model` (the diagnostic itself), `codes` (the
 registry of codes and their explanations), `sink` (collecting and ordering), `suppressions`

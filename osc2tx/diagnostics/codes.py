@@ -22,7 +22,7 @@ class Explanation:
     """An example of a mistake.
 
     Attributes:
-        remedy: What to do, one or two sentences.
+        remedy: The remedy, one or two sentences.
         faulty: A source text with the mistake.
         fixed: The same text without it; empty where the mistake is not in the text.
         standard: Version of the standard of the example.
@@ -74,8 +74,8 @@ class Code:
         severity: Its effect on the run.
         summary: One sentence for the reference.
         section: Section of OpenSCENARIO DSL 2.2 that states the rule, where there is one.
-        warns_in_check: An error of a run that `check` only warns of where options of the run, or
-            packages beside it, mend it.
+        warns_in_check: An error of a run that `check` reports as a warning where options of the
+            run, or packages, can remove it.
     """
 
     code: str
@@ -119,30 +119,30 @@ CODES = _table(
     Code("OSC111", "foreign-comment", ERROR, "Comments begin with `#`.", "7.2.1.2"),
     Code("OSC112", "empty-block", ERROR, "A block has no lines.", "7.2.2"),
     Code("OSC113", "implicit-serial", WARNING, "`do:` stands for `do serial:`.", "7.3.13"),
-    Code("OSC114", "empty-parentheses", ERROR, "Empty parentheses are too much.", "7.3.10"),
+    Code("OSC114", "empty-parentheses", ERROR, "Empty parentheses are not allowed.", "7.3.10"),
     Code("OSC115", "line-too-long", ERROR, "A logical line exceeds the limit of tokens.", "7.2.1"),
-    Code("OSC116", "merge-conflict", ERROR, "A merge is not resolved."),
+    Code("OSC116", "merge-conflict", ERROR, "A merge conflict is not resolved."),
     # --- 5xx not supported by a backend ---
     Code("OSC501", "unsupported-declaration", ERROR, "No backend can express this member yet."),
-    Code("OSC502", "unsupported-constraint", ERROR, "A constraint depends on the run.", "7.3.11"),
+    Code("OSC502", "unsupported-constraint", ERROR, "A constraint depends on the world.", "7.3.11"),
     Code("OSC503", "unsupported-expression", ERROR, "No backend can express this expression yet."),
     Code("OSC504", "unsupported-invocation", ERROR, "No backend can express this invocation yet."),
     Code("OSC506", "unsupported-directive", ERROR, "No backend can express this directive yet."),
     Code("OSC507", "abstract-action", ERROR, "An abstract action has no behavior.", "8.8.1"),
-    Code("OSC508", "no-such-runtime-modifier", ERROR, "The action cannot honour this modifier."),
-    Code("OSC509", "no-such-runtime-argument", ERROR, "The runtime cannot honour this argument."),
+    Code("OSC508", "unsupported-modifier", ERROR, "The action does not support this modifier."),
+    Code("OSC509", "unsupported-argument", ERROR, "The runtime does not support this argument."),
     Code("OSC510", "nothing-to-do", WARNING, "The scenario has no `do`."),
     Code("OSC511", "circular-value", ERROR, "A value is defined by itself.", "7.3.6"),
     Code("OSC512", "external-method", ERROR, "An external method is no Python function.", "7.3.7"),
-    Code("OSC513", "unfitting-arguments", ERROR, "Arguments do not fit each other."),
-    Code("OSC514", "not-in-xml", ERROR, "OpenSCENARIO XML cannot say this."),
-    Code("OSC515", "nearly-in-xml", ERROR, "OpenSCENARIO XML can only nearly say this."),
-    Code("OSC516", "beyond-any-world", ERROR, "A quantity is larger than any world has."),
-    Code("OSC518", "unlike-in-xml", ERROR, "A document does something else than its scenario."),
+    Code("OSC513", "inconsistent-arguments", ERROR, "Arguments are incomplete, or contradict."),
+    Code("OSC514", "inexpressible-in-xml", ERROR, "OpenSCENARIO XML cannot express this."),
+    Code("OSC515", "approximated-in-xml", ERROR, "OpenSCENARIO XML only approximates this."),
+    Code("OSC516", "quantity-out-of-range", ERROR, "A quantity exceeds the limits of worlds."),
+    Code("OSC518", "deviation-in-xml", ERROR, "A document deviates from its scenario."),
     Code("OSC519", "contradictory-durations", ERROR, "Durations contradict.", "7.6.2.1"),
-    Code("OSC517", "renamed-module", WARNING, "A file is called like a module of Python."),
+    Code("OSC517", "renamed-module", WARNING, "A file has the name of a Python module."),
     # --- 2xx names and imports ---
-    Code("OSC201", "unknown-name", ERROR, "A name stands for nothing here.", "7.7.4"),
+    Code("OSC201", "unknown-name", ERROR, "A name is not defined here.", "7.7.4"),
     Code("OSC202", "unknown-type", ERROR, "No type has this name.", "7.3"),
     Code("OSC203", "duplicate-definition", ERROR, "A name is defined twice.", "7.3"),
     Code("OSC204", "ambiguous-name", ERROR, "Several used namespaces offer a name.", "7.7.4"),
@@ -162,7 +162,7 @@ CODES = _table(
     Code("OSC301", "type-mismatch", ERROR, "A value has the wrong type.", "7.4.2.6"),
     Code("OSC302", "dimension-mismatch", ERROR, "Physical dimensions differ.", "7.3.4"),
     Code("OSC303", "missing-unit", ERROR, "A physical value has no unit.", "7.3.4"),
-    Code("OSC304", "invalid-operands", ERROR, "An operator does not take these.", "7.4.2"),
+    Code("OSC304", "invalid-operands", ERROR, "An operator rejects its operands.", "7.4.2"),
     Code("OSC305", "unit-exponents", ERROR, "A unit does not fit its type.", "7.3.4"),
     Code("OSC306", "invalid-base", ERROR, "A type cannot inherit from this.", "7.3.8"),
     Code("OSC307", "inheritance-cycle", ERROR, "A type inherits from itself.", "7.3.8"),
@@ -172,15 +172,15 @@ CODES = _table(
     Code("OSC312", "enum-value-cycle", ERROR, "An enum value depends on itself.", "7.3.3"),
     Code("OSC313", "ambiguous-enum-member", ERROR, "Several enums have this member.", "7.3.3"),
     Code("OSC314", "no-common-type", ERROR, "Elements have no common type.", "7.4.2.7"),
-    Code("OSC315", "invalid-cast", ERROR, "A value cannot be converted so.", "7.4.2.6"),
+    Code("OSC315", "invalid-cast", ERROR, "A value cannot be converted to a type.", "7.4.2.6"),
     Code("OSC316", "not-a-value", ERROR, "A name does not stand for a value.", "7.4.1"),
     Code("OSC317", "negative-unsigned", ERROR, "An unsigned value is negative.", "7.4.2.6"),
     Code("OSC318", "actor-association", ERROR, "Actors of base and type differ.", "7.3.8"),
     Code("OSC319", "invalid-override", ERROR, "An overriding method does not fit.", "7.3.7"),
-    Code("OSC320", "event-specification", ERROR, "It excludes parameters.", "7.3.10"),
-    Code("OSC321", "invalid-extension", ERROR, "This cannot be extended so.", "7.3.9"),
+    Code("OSC320", "event-specification", ERROR, "A specification excludes parameters.", "7.3.10"),
+    Code("OSC321", "invalid-extension", ERROR, "A type has no such extension.", "7.3.9"),
     Code("OSC322", "same-dimension", ERROR, "Two types have one dimension.", "7.3.4"),
-    Code("OSC323", "reversed-range", WARNING, "The upper bound stands first.", "7.3.5.2.2"),
+    Code("OSC323", "reversed-range", WARNING, "The upper bound comes first.", "7.3.5.2.2"),
     Code("OSC324", "too-many-levels", ERROR, "A type has too many supertypes.", "7.3.8"),
     # --- 4xx behaviors, modifiers and constraints ---
     Code("OSC401", "several-do", ERROR, "A behavior has more than one `do`.", "7.3.13"),
@@ -188,7 +188,7 @@ CODES = _table(
     Code("OSC403", "duplicate-argument", ERROR, "A parameter is given twice.", "7.3.5.1.3"),
     Code("OSC404", "missing-argument", ERROR, "A required argument is missing.", "7.3.7"),
     Code("OSC405", "too-many-arguments", ERROR, "Too many arguments are given.", "7.3.5.1.3"),
-    Code("OSC406", "modifier-not-applicable", ERROR, "A modifier fits elsewhere.", "7.3.12"),
+    Code("OSC406", "modifier-not-applicable", ERROR, "A modifier does not apply here.", "7.3.12"),
     Code("OSC407", "missing-actor", ERROR, "An invocation has no actor.", "7.3.13"),
     Code("OSC408", "exclusive-arguments", ERROR, "Arguments exclude each other.", "8.9.1.3"),
     Code("OSC409", "range-argument", ERROR, "A method takes no range here.", "7.3.7"),
@@ -197,10 +197,10 @@ CODES = _table(
     Code("OSC412", "invalid-coverage", ERROR, "Coverage arguments do not fit.", "7.5"),
     Code("OSC413", "implicit-it", WARNING, "A parameter is named without `it.`.", "7.4.1.3"),
     Code("OSC414", "implication-chain", WARNING, "`a => b => c` is not specified.", "7.4.2"),
-    Code("OSC415", "type-as-object", WARNING, "A type stands for its one object.", "7.4.1"),
-    Code("OSC416", "operator-as-label", WARNING, "A label is called `serial`.", "7.3.13"),
+    Code("OSC415", "type-as-object", WARNING, "A type denotes its only object.", "7.4.1"),
+    Code("OSC416", "operator-as-label", WARNING, "A label has the name `serial`.", "7.3.13"),
     Code("OSC417", "overrides-nothing", WARNING, "`only` has no method to override.", "7.3.7.2"),
-    # 42x constraints, 43x what can never happen, 44x times
+    # 42x constraints, 43x unreachable parts, 44x times
     Code("OSC420", "contradiction", ERROR, "Constraints contradict each other.", "7.3.11"),
     Code("OSC421", "impossible-constraint", ERROR, "A constraint can never hold.", "7.3.11"),
     Code("OSC422", "contradicted-default", ERROR, "A default contradicts others.", "7.3.11"),
@@ -217,7 +217,7 @@ CODES = _table(
         "Nothing waits for an event, and a similar one is never emitted.",
         "7.3.10",
     ),
-    Code("OSC432", "unreachable-member", WARNING, "The member before never ends.", "7.3.13"),
+    Code("OSC432", "unreachable-member", WARNING, "The preceding member never ends.", "7.3.13"),
     Code("OSC433", "unused-actor", WARNING, "An actor is not used.", "7.3.6"),
     Code("OSC434", "endless-composition", WARNING, "No member ends by itself.", "7.3.13"),
     Code("OSC435", "single-alternative", WARNING, "`one_of` has one member.", "7.3.13.3"),
@@ -226,9 +226,9 @@ CODES = _table(
     Code("OSC438", "endless-recursion", ERROR, "A scenario invokes itself.", "7.3.13"),
     Code("OSC439", "contradictory-until", ERROR, "`until` and duration disagree.", "7.6.2.5.4"),
     Code("OSC440", "shorter-than-a-step", WARNING, "A wait is shorter than a step.", "7.3.10"),
-    Code("OSC441", "reacts-at-every-instant", WARNING, "`on` reacts again and again.", "7.3.10"),
-    Code("OSC442", "two-masters-at-once", WARNING, "Members control one thing.", "7.3.13"),
-    Code("OSC443", "map-not-found", WARNING, "There is no such map.", "8.12.2.2.11"),
+    Code("OSC441", "reaction-at-every-instant", WARNING, "`on` reacts at every instant.", "7.3.10"),
+    Code("OSC442", "shared-slot", WARNING, "Members control the same slot.", "7.3.13"),
+    Code("OSC443", "map-not-found", WARNING, "The map is not found.", "8.12.2.2.11"),
     Code("OSC444", "too-many-members", ERROR, "Invocations multiply members.", "7.3.13"),
     # --- 6xx relaxations of a dialect ---
     Code("OSC601", "relaxed-use", WARNING, "A `use` statement is accepted.", "7.7.3"),
@@ -245,37 +245,37 @@ CODES = _table(
     Code("OSC612", "alias-type", WARNING, "A type has another name in the standard.", "8.14"),
     Code("OSC613", "alias-unit", WARNING, "A unit has another name in the standard.", "8.14"),
     Code("OSC614", "alias-parameter", WARNING, "A parameter has another name in the standard."),
-    Code("OSC615", "alias-enum-member", WARNING, "An enum member has another name there."),
+    Code("OSC615", "alias-enum-member", WARNING, "A member has another standard name."),
     Code("OSC616", "repeated-declaration", WARNING, "A known name is declared again.", "7.3"),
     Code("OSC617", "relaxed-module", WARNING, "A file is imported without quotes.", "7.7.5"),
     Code("OSC618", "method-of-a-type", WARNING, "A method is called on the type itself.", "7.3.7"),
     Code("OSC619", "alias-member", WARNING, "A member has another name in the standard."),
     Code("OSC620", "runner-event", WARNING, "An event is only raised by `emit` here.", "7.3.10"),
-    Code("OSC621", "quantity-text", WARNING, "A text names the speed of an actor.", "7.4.2.6"),
-    Code("OSC622", "implied-actor", WARNING, "An actor type stands for an actor."),
-    Code("OSC623", "first-come", WARNING, "`until` or duration, whichever first.", "7.6.2.5.4"),
+    Code("OSC621", "quantity-text", WARNING, "A string names the speed of an actor.", "7.4.2.6"),
+    Code("OSC622", "implied-actor", WARNING, "An actor type denotes an actor."),
+    Code("OSC623", "first-of-two-ends", WARNING, "The first of `until` and duration.", "7.6.2.5.4"),
     Code("OSC624", "undeclared-model", WARNING, "A model of an actor is not declared.", "7.3"),
     Code("OSC625", "repeated-label", WARNING, "A label is used twice.", "7.3.13"),
     Code("OSC626", "relaxed-layout", WARNING, "A line begins between two blocks.", "7.2.1.4"),
-    Code("OSC627", "argument-none", WARNING, "`None` stands for an argument that is left out."),
+    Code("OSC627", "argument-none", WARNING, "`None` denotes an omitted argument."),
     Code("OSC628", "caller-actor", WARNING, "An actor of the caller is used by its name."),
     # --- 7xx suppressions ---
     Code("OSC701", "unused-suppression", WARNING, "A suppression suppresses nothing."),
     Code("OSC702", "unknown-suppression", WARNING, "A suppression names an unknown code."),
-    Code("OSC703", "invalid-suppression", WARNING, "This cannot be suppressed."),
+    Code("OSC703", "invalid-suppression", WARNING, "A code cannot be suppressed."),
     Code("OSC704", "empty-suppression", WARNING, "A suppression names no code."),
     # --- 8xx runs; the classes of errors in the runtime have these codes ---
     Code("OSC801", "run-impossible", ERROR, "A run cannot begin, or cannot continue."),
-    Code("OSC802", "no-such-place", ERROR, "An actor cannot be placed there."),
-    Code("OSC803", "two-masters", ERROR, "Two actions control the same slot of an actor."),
+    Code("OSC802", "no-such-position", ERROR, "An actor cannot be placed at a position."),
+    Code("OSC803", "slot-conflict", ERROR, "Two actions control the same slot of an actor."),
     Code(
         "OSC804",
-        "not-in-the-runtime",
+        "unsupported-by-runtime",
         ERROR,
-        "The runtime does not do this.",
+        "The runtime does not support this.",
         warns_in_check=True,
     ),
-    Code("OSC805", "not-in-this-world", ERROR, "The chosen world cannot do this."),
+    Code("OSC805", "unsupported-by-world", ERROR, "The chosen world does not support this."),
     Code("OSC806", "run-option", ERROR, "An option of a run is wrong.", warns_in_check=True),
     Code("OSC807", "run-file", ERROR, "A file of a run cannot be found, read or written."),
     Code("OSC808", "simulator", ERROR, "The simulator is not available, or refuses."),

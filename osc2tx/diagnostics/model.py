@@ -35,8 +35,8 @@ class Diagnostic:
         primary: The smallest span that shows the mistake; `None` for a whole input.
         labels: Related places, each with a remark.
         notes: Further facts, a line each.
-        help: What to do about it, one line.
-        fixes: Corrections that do it; none where the replacement is not known.
+        help: The remedy, one line.
+        fixes: Corrections that apply it; none where the replacement is not known.
     """
 
     code: str

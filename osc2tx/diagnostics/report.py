@@ -22,11 +22,11 @@ class ScenarioEntry:
     Attributes:
         source: The file.
         name: Its name.
-        level: How far it is worked out (§6.3).
-        open: What is open.
+        level: Its level (§6.3).
+        open: Its open choices.
         summary: All this in one line.
         is_runnable: Whether it can run by itself and no other one of the file invokes it.
-        values: What it fixes, by path, as one would write it.
+        values: The values that it fixes, by path, as in the source.
     """
 
     source: SourceFile
@@ -97,8 +97,8 @@ def make_report(
 
     Args:
         found: All diagnostics.
-        files: How many source files were asked for.
-        suppressed: How many warnings are kept back.
+        files: Number of requested source files.
+        suppressed: Number of suppressed warnings.
         folder: Where the reader works.
         most_shown: How many diagnostics of one file are shown; 0 shows all.
         is_for_readers: Whether a diagnostic that many files have is shown once.

@@ -43,7 +43,7 @@ class DiagnosticSink:
         self.add([diagnostic])
 
     def add(self, diagnostics: Iterable[Diagnostic]) -> None:
-        """Add what was found elsewhere."""
+        """Add diagnostics from elsewhere."""
         for each in diagnostics:
             span = each.primary
             place = (span.source.name, span.start, span.end) if span else ()

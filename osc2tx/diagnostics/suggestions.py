@@ -38,7 +38,7 @@ def nearest(written: str, known: Iterable[str], likeness: float = LIKENESS) -> s
 def _promising(written: str, names: frozenset[str]) -> list[str]:
     """Return the names with the most pairs of letters in common, in the order of the alphabet.
 
-    Pairs that many names have say little: they count as long as there are few names to count.
+    Frequent pairs are less significant: they count only while there are few names.
     """
     from collections import Counter
 

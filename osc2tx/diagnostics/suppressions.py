@@ -1,9 +1,9 @@
-"""Comments that keep warnings back: `#! allow OSC603, relaxed-do: the reason`.
+"""Comments that suppress warnings: `#! allow OSC603, relaxed-do: the reason`.
 
-At the end of a line such a comment counts for the warnings that start on that line; on a line of
-its own, for the warnings of the next statement line. It names every code, errors cannot be
-suppressed, and a suppression that suppresses nothing is reported itself. The comments are found by
-the front end, which knows a comment from a string.
+At the end of a line such a comment applies to the warnings that start on that line; on its own
+line, to the warnings of the next statement line. It names every code, errors cannot be suppressed,
+and a suppression that suppresses nothing is reported itself. The front end finds the comments, as
+it distinguishes comments from strings.
 """
 
 from __future__ import annotations

@@ -28,7 +28,7 @@ __all__ = ["format_source"]
 
 
 def format_source(source: SourceFile) -> str:
-    """Return the text of a file as the style guide wants it (§9.2.2), lines ended by LF.
+    """Return the text of a file in the style of the guide (§9.2.2), with LF line ends.
 
     Args:
         source: The text, without syntax errors.
@@ -45,7 +45,7 @@ def _scan(source: SourceFile) -> TokenTable:
 
 
 def _content(table: TokenTable) -> tuple[object, ...]:
-    """What formatting must not change: the tokens, and the comments where they belong."""
+    """The content that formatting keeps: the tokens, and the comments at their owners."""
     layout = {
         index
         for index, text in enumerate(map(table.text, range(len(table.types))))

@@ -39,7 +39,7 @@ class Comment:
 
 @dataclass(frozen=True, slots=True)
 class Gap:
-    """What stands between two tokens.
+    """The text between two tokens.
 
     Attributes:
         comments: The comments, in order.
@@ -53,7 +53,7 @@ class Gap:
 
 
 def read_gap(text: str, start: int, end: int) -> Gap:
-    """Return what stands between two offsets of a text that hold no token."""
+    """Return the parts between two offsets of a text without tokens."""
     comments: list[Comment] = []
     blanks, joined = 0, False
     line_start = max(text.rfind("\n", 0, start), text.rfind("\r", 0, start)) + 1
@@ -84,13 +84,13 @@ _LAYOUT = frozenset({INDENT, DEDENT, NEWLINE, EOF})
 
 @dataclass(frozen=True, slots=True)
 class Piece:
-    """A token, with what the source had before it on the same logical line.
+    """A token, with the preceding comments of the same logical line.
 
     Attributes:
         kind: Its type.
         text: Its text.
         comments: Comments between it and the token before.
-        joined: Whether it stood on a line of its own behind a backslash.
+        joined: Whether it began a line behind a backslash.
     """
 
     kind: int
@@ -101,7 +101,7 @@ class Piece:
 
 @dataclass(frozen=True, slots=True)
 class CommentLine:
-    """A comment on a line of its own, between two logical lines.
+    """A comment line between two logical lines.
 
     Attributes:
         depth: Number of blocks around it.
@@ -170,7 +170,7 @@ def _gap(table: TokenTable, end: int, index: int) -> Gap:
 def _new_line(gap: Gap, widths: list[int], closed: list[int], *, follows: bool) -> LogicalLine:
     """Begin a line; comments above it have the indentation of their statement.
 
-    A block comment that stands before a statement on its line goes above it.
+    A block comment before a statement on its line moves above it.
     """
     depth = len(widths) - 1
     shared = share(gap.comments, Between(tuple(closed), widths[-1], follows, gap.blank_lines))

@@ -1,4 +1,4 @@
-"""The deviation of what a player made of a document from what the world made of the scenario.
+"""The deviation of a played document from the run of its scenario.
 
 Events may come later by a step for each event before them: a tool may see a completion one step
 late. Positions may differ by the distance that this makes at the speeds in question.
@@ -75,8 +75,8 @@ class Deviation:
         end: Difference of the ends (s).
         actors: Deviation of each actor.
         problems: Events that are missing, too late or in another order; a sentence each.
-        is_off_road: All that deviates are actors that have come to the end of their roads.
-        is_at_fork: All that deviates are actors with which the tool may take another road.
+        is_off_road: Only actors beyond the end of their roads deviate.
+        is_at_fork: Only actors for which the tool may take another road deviate.
     """
 
     late: float
@@ -122,11 +122,11 @@ def compare(
 
     Args:
         document: The document.
-        origins: The members that its events stand for.
+        origins: The members of its events.
         expected: The run in the world; an infinite end if it was left before.
         found: The run of the document.
         dt: Length of a step of both (s).
-        patience: Delay of events (s) that is allowed besides a step for each event before.
+        patience: Allowed delay of events (s) besides a step for each event before.
     """
     depth = hops(document)
     chain = (1 + max(depth.values(), default=0)) * dt
@@ -142,7 +142,7 @@ def compare(
         should = expected.starts[source]
         begun = [(found.starts[name], name) for name in names if name in found.starts]
         if not begun:
-            problems.append(f"nothing of {source} ever starts")
+            problems.append(f"no action of {source} starts")
             continue
         at, name = min(begun)
         allowed = patience + depth[name] * dt + ROUNDING
@@ -198,7 +198,7 @@ def first_unlike(
 
     Args:
         document: The document.
-        origins: The members that its events stand for.
+        origins: The members of its events.
         starts: When actions begin in the world (s), by source line.
         deviation: The deviation of the document.
     """
@@ -249,7 +249,7 @@ def hops(document: Element) -> dict[str, int]:
 
 
 def _awaited(trigger: Element | None) -> set[Moment]:
-    """Return what a trigger waits for."""
+    """Return the elements that a trigger waits for."""
     found: set[Moment] = set()
     for node in () if trigger is None else trigger.walk():
         if isinstance(node, xml.StoryboardElementStateCondition):

@@ -21,22 +21,22 @@ from osc2tx.xosc import read
 from osc2tx_runtime import Scenario, ScenarioError
 from osc2tx_shared.classes import dataclass, replace
 
-UNLIKE = "played, the document does something else than the scenario"
+UNLIKE = "the played document deviates from the scenario"
 PACKAGES = "actions come from packages of users"
-OFF_ROAD = "its road ends while the run goes on, and what it does behind the end is up to the tool"
-FORK = "which road it takes where its lane forks is up to the tool"
-BEYOND = "played, the document is farther off than its approximations state"
+OFF_ROAD = "its road ends during the run, and the motion beyond the end depends on the tool"
+FORK = "the road that it takes at a fork of its lane depends on the tool"
+BEYOND = "the played document deviates by more than its approximations state"
 
 
 @dataclass(frozen=True)
 class Source:
-    """What the documents of a file were made from.
+    """The origin of the documents of a file.
 
     Attributes:
         module: The program.
-        options: Of the compilation.
+        options: Options of the compilation.
         folder: The folder of the file, with maps.
-        generate: Makes its Python module, on its own.
+        generate: Generates its separate Python module.
     """
 
     module: ir.Module
@@ -51,8 +51,8 @@ def graded(
     """Return the documents of a file with measured grades.
 
     Args:
-        documents: What the back end wrote.
-        source: What they were made from.
+        documents: The documents of the back end.
+        source: Their origin.
         sink: Takes an error for each document that contradicts its report.
     """
     if all(each.xml is None for each in documents):

@@ -1,7 +1,7 @@
 """The deviation of an imported scenario, run in the embedded world, from its document, played.
 
-Both are compared from states alone: places, the end and the verdict. What a tool sees one step
-late counts as late, not as off: a place is compared with those of the steps around.
+Both are compared by states alone: positions, the end and the verdict. An event that a tool sees one
+step late is a delay, not a deviation: a position is compared with those of the surrounding steps.
 """
 
 from __future__ import annotations
@@ -23,10 +23,10 @@ from osc2tx_runtime.opendrive import MapError
 from osc2tx_shared.classes import dataclass
 
 COARSE, FINE, FINEST = 0.05, 0.02, 0.0025  # s: lengths of steps
-NEAR = 1.0  # m: what is nearer may be off by a late event at speed, which a shorter step shows
-LONGEST = 90.0  # s: what happened until then counts
+NEAR = 1.0  # m: a smaller deviation may come from a late event at speed, which a shorter step shows
+LONGEST = 90.0  # s: the time until then counts
 MOST_ACTOR_STEPS = 8_000
-"""A run is left when the steps of its actors, of the coarse length, are so many."""
+"""Maximum number of steps of actors, of the coarse length, in a run."""
 MOST_EVENTS = 400
 """Of documents with more there is no run."""
 
@@ -38,11 +38,11 @@ class ImportDeviation:
     """The deviation of an imported scenario from its document.
 
     Attributes:
-        place: Longest distance (m) between an actor here and there, late events apart.
+        place: Longest distance (m) between an actor here and there, except for late events.
         actor: The actor with that distance.
         at: Time (s) of that distance.
         since: First time (s) at which an actor is off; infinite if none is.
-        time: Difference of the ends (s); zero if both go on.
+        time: Difference of the ends (s); zero if both continue.
         late: Time (s) by which events may come later.
         off_road: The actor with which the comparison ends, at the end of its road.
     """
@@ -79,7 +79,7 @@ def import_deviation(
         scenario: The scenario.
         names: Names of the actors in the scenario, by those in the document.
         values: Values of open parameters of the scenario, in SI units.
-        starts: Where the scenario puts actors at once, so that no free places are looked for.
+        starts: Start positions of actors in the scenario, so that no free positions are searched.
         is_endless: Nothing ends the document, so the end of the scenario does not count.
 
     Raises:
@@ -101,15 +101,15 @@ def import_deviation(
 
 @dataclass(frozen=True)
 class _Case:
-    """What is compared.
+    """The compared pair.
 
     Attributes:
-        document: The document as the player takes it.
+        document: The document in the form of the player.
         map_file: The map.
         scenario: The scenario.
         names: Names of the actors in the scenario, by those in the document.
         values: Values of open parameters.
-        starts: Where the scenario puts actors at once.
+        starts: Start positions of actors in the scenario.
         is_endless: Nothing ends the document.
     """
 
@@ -144,7 +144,7 @@ class _Case:
         worst, worst_actor, at, since = 0.0, "", 0.0, math.inf
         for said, rows in played.track.items():
             actor = self.names.get(said, "")
-            # The standard says nothing of what is behind the end of a road.
+            # The standard does not define the motion beyond the end of a road.
             rows = [row for row in rows if row[0] < played.ends.get(said, math.inf)]
             place, when, first = _apart(run.track.get(actor, ()), rows, dt, round(late / dt))
             since = min(since, first)
@@ -162,7 +162,7 @@ class _Case:
                 self.document, road_map, dt, reading=reading, given={}, most=longest
             )
         except (LookupError, ValueError, MapError) as error:
-            # documents of others name what is not there
+            # third-party documents name missing parts
             reason = f"it cannot be played here: {type(error).__name__} {error}"
             raise NoEvidence(reason) from error
 
@@ -172,12 +172,12 @@ def at_end_of_road(
 ) -> str:
     """Return the actor whose road ends when a run fails, if it does in the player too.
 
-    The standard says nothing of ends of roads: the player stops an entity there, a scenario fails,
-    and says which actor has come there. Both are at the same place then.
+    The standard does not define ends of roads: the player stops an entity there, a scenario fails,
+    and names the actor. Both are at the same position then.
 
     Args:
-        failure: How the run fails.
-        played: What the player made of the document.
+        failure: The failure of the run.
+        played: The run of the document.
         names: Names of the actors in the scenario, by those in the document.
         late: Time (s) by which one may be later than the other.
     """

@@ -1,7 +1,7 @@
 """The runs that one document gets, and the largest deviation in them.
 
-A run at coarse steps shows that most documents do what their scenarios do. Where it does not, or
-only nearly, the same run at fine steps tells deviations from the delay of events by a step.
+A run at coarse steps confirms most documents. Otherwise the same run at fine steps distinguishes
+deviations from the delay of events by a step.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ COARSE, FINE = 0.05, 0.02  # s: lengths of steps
 SUSPECT = 0.3  # m: at coarse steps, the delay of events may hide so much
 LONGEST = 300.0  # s: as a run of the module
 MOST_ACTOR_STEPS = 60_000
-"""A run is left when the steps of its actors are so many: what happened until then counts."""
+"""Maximum number of steps of actors in a run; the part until then counts."""
 PACE = 1.0  # m/s: no approximated actor is slower; an event that waits for its position comes late
 
 
@@ -69,7 +69,7 @@ class Measuring:
         options: XmlOptions,
         folder: Path,
     ) -> None:
-        """Take what the runs need.
+        """Store the inputs of the runs.
 
         Args:
             found: The document with its report; there is one.
@@ -95,10 +95,10 @@ class Measuring:
         self._stated = sum(bound.rounded for bound in bounds if isinstance(bound, Metres))
 
     def run(self) -> Finding:
-        """Return what the runs show: one with nominal values, and those at the corners of ranges.
+        """Return the deviations in the runs with nominal values and at the corners of ranges.
 
         Raises:
-            NoEvidence: The run with nominal values shows nothing.
+            NoEvidence: The run with nominal values gives no evidence.
         """
         self._map()  # without it there is no run at all
         results = [self._judged({})]

@@ -1,7 +1,7 @@
-"""Documents of others in the form that the player takes: defaults stated, tools' parts left out.
+"""Third-party documents in the form of the player: with defaults, without parts of tools.
 
-What drives an entity under a controller, how things look, and the weather move nothing in the
-player. Entities go on as the rest of the document says.
+Controllers, appearance and weather have no effect in the player. Entities continue by the rest of
+the document.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ DEFAULTS: Mapping[str, Mapping[str, str]] = {
     "LaneChangeActionDynamics": {"dynamicsShape": "sinusoidal", "dynamicsDimension": "time"},
     "LaneOffsetActionDynamics": {"dynamicsShape": "step"},
 }
-"""What counts for attributes that documents leave out although they should not."""
+"""Values of required attributes that documents omit."""
 
 
 def plain(node: Element) -> Element:
@@ -50,7 +50,7 @@ def _is_idle(node: Element) -> bool:
     if node.tag in ("Action", "PrivateAction", "GlobalAction"):
         return bool(node.children) and all(_is_idle(child) for child in node.children)
     if node.tag == "StartTrigger" and not node.children:
-        return True  # tools start at once what waits for nothing
+        return True  # tools immediately start elements without a trigger
     if node.tag == "TrailerRef":
         return not node.get("entityRef")
     return node.tag == "Trailer" and all(_is_idle(child) for child in node.children)

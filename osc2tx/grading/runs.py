@@ -42,11 +42,11 @@ class Failed(NoEvidence):
     """A run in the world that fails.
 
     Attributes:
-        recording: What happened up to there, which is its end.
+        recording: The run up to the failure.
     """
 
     def __init__(self, reason: str, recording: Recording) -> None:
-        """Take the reason, and what happened."""
+        """Store the reason and the recording."""
         super().__init__(reason)
         self.recording = recording
 
@@ -56,8 +56,8 @@ class WorldRun:
     """A run in the embedded world.
 
     Attributes:
-        recording: What happened.
-        is_whole: The scenario came to its end within the time of the run.
+        recording: The states and events.
+        is_whole: The scenario ended within the time of the run.
     """
 
     recording: Recording
@@ -112,7 +112,7 @@ def run_in_world(scenario: type[Scenario], settings: RunSettings) -> WorldRun:
         raise Failed(f"the run in the world fails: {result.reason}", recording)
     is_whole = result.status == "success"
     end = result.time if is_whole else math.inf
-    if not is_whole:  # what it awaits never happens, and its actors stop where their road ends
+    if not is_whole:  # the awaited event never occurs, and its actors stop where their road ends
         track = {
             who: [row for row in rows if row[0] <= acted + SETTLED] for who, rows in track.items()
         }

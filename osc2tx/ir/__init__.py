@@ -1,7 +1,7 @@
-"""The intermediate representation: what a program means, ready for any backend.
+"""The intermediate representation: the meaning of a program, for any backend.
 
-Nodes are frozen data without references to syntax or symbols; every one knows its span.
-Modules, in reading order: `values`, `expressions`, `behaviors`, `declarations`, `user_types`,
+Nodes are frozen data without references to syntax or symbols; each has its span. Modules, in
+reading order: `values`, `expressions`, `behaviors`, `declarations`, `user_types`,
 `coverage`, `nodes`; then `traversal`, `trees`, `compare`, `inheritance`, `verify` (the invariants)
 and `dump` (the printable form).
 """

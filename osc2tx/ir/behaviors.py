@@ -1,4 +1,4 @@
-"""Behavior of the IR: the tree that `do` describes, and what it waits for."""
+"""Behavior of the IR: the tree of `do`, and its triggers."""
 
 from __future__ import annotations
 
@@ -94,12 +94,12 @@ class Trigger:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class BehaviorBase:
-    """What every member of the tree has.
+    """The common base of the members of the tree.
 
     Attributes:
         span: The statement in the source.
         label: Its label, if it has one.
-        name: What a person would call it; not unique.
+        name: Its name for readers; not unique.
         comments: Comment lines above it in the source.
     """
 
@@ -111,13 +111,13 @@ class BehaviorBase:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class CompositionBase(BehaviorBase):
-    """What the compositions have in common.
+    """The common base of the compositions.
 
     Attributes:
         members: In source order.
         duration: Time or range of time.
         until: Any of these ends it.
-        is_phase: Labelled, or directly below a `do`: worth a place of its own in the output.
+        is_phase: Labelled, or directly below a `do`: a separate part of the output.
         end_comments: Comment lines below the last member.
     """
 
@@ -149,11 +149,11 @@ class OneOf(CompositionBase):
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Application:
-    """A modifier of the user's own where it is applied: modifiers of the library stand for it.
+    """An application of a user-defined modifier, which modifiers of the library replace.
 
     Attributes:
-        key: Of the modifier, see `UserModifier.key`.
-        arguments: What its parameters are there, those that have a value.
+        key: Key of the modifier, see `UserModifier.key`.
+        arguments: The values of its parameters, where they have one.
     """
 
     span: Span
@@ -166,8 +166,8 @@ class ModifierCall:
     """A modifier of the library with its arguments.
 
     Attributes:
-        at: When it holds (`start`, `end`, `all`), taken out of the arguments.
-        applied: The applications in whose bodies it stands, the outermost first.
+        at: When it applies (`start`, `end`, `all`), taken out of the arguments.
+        applied: The applications whose bodies contain it, the outermost first.
     """
 
     span: Span
@@ -238,10 +238,10 @@ class InvokeScenario(BehaviorBase):
 
     Attributes:
         scenario: Its name.
-        key: Tells it apart from others of the same name, see `Scenario.key`.
-        specials: What runs instead of it, decided when it is invoked: the first that applies, so
-            the most special ones come first.
-        actor: The actor for its `actor`.
+        key: Distinguishes it from others of the same name, see `Scenario.key`.
+        specials: Scenarios that may run instead, decided when it is invoked: the first that
+            applies, so the most derived ones come first.
+        actor: The value of its `actor`.
         arguments: Its parameters and cast, in source order, without `duration`.
         duration: Time or range of time.
         until: Any of these ends it.
@@ -267,7 +267,7 @@ class Wait(BehaviorBase):
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Emit(BehaviorBase):
-    """Lets an event occur."""
+    """Emits an event."""
 
     event: EventRef
     arguments: tuple[Argument, ...]
@@ -289,7 +289,7 @@ class Call(BehaviorBase):
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class On(BehaviorBase):
-    """Reacts at each occurrence of the trigger, for as long as what stands beside it runs."""
+    """Reacts at each occurrence of the trigger, while the members beside it run."""
 
     trigger: Trigger
     reactions: tuple[Emit | Finish | Call, ...]

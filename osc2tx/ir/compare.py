@@ -9,7 +9,7 @@ from osc2tx.diagnostics import Span
 
 
 def same(one: Any, other: Any) -> bool:
-    """Return whether two parts say the same about the same places of the same files.
+    """Return whether two parts have the same meaning at the same positions of the same files.
 
     The files may have been read twice, for two modules; comments are only in that of their own.
     """
@@ -17,7 +17,7 @@ def same(one: Any, other: Any) -> bool:
 
 
 def means_same(one: Any, other: Any) -> bool:
-    """Return whether two parts say the same, wherever that stands and whatever explains it."""
+    """Return whether two parts have the same meaning, at any positions and with any comments."""
     return _same(one, other, ("span", "comments", "applied"))
 
 
@@ -42,7 +42,7 @@ def _same(one: Any, other: Any, apart_from: tuple[str, ...]) -> bool:
 
 
 def words(part: Any) -> Iterator[str]:
-    """Yield all names and texts in a part: whatever it refers to by name is among them."""
+    """Yield all names and strings in a part, including those of its references."""
     pending = [part]
     while pending:
         each = pending.pop()

@@ -34,22 +34,22 @@ class Coverage:
         kind: `cover` or `record`.
         name: The item.
         span: Its declaration.
-        expression: What is sampled; `None` for a cross of other items.
+        expression: The sampled expression; `None` for a cross of other items.
         items: The items of a cross.
         event: When it is sampled: an event, or the start or end of the scenario.
         unit: The unit of values and slices.
         within: Values of interest, in the unit.
         every: Width of a slice, in the unit.
         buckets: Boundaries between slices, in the unit.
-        ignore: What does not count: a condition over the element of depth 0.
-        illegal: What must not be, likewise.
+        ignore: The condition of ignored values, over the element of depth 0.
+        illegal: The condition of illegal values, likewise.
         target: Hits that each slice should have.
         text: Description.
         comments: The comment lines above it.
         graded: Its buckets, also those by default; empty for a cross, or if its values have no
             declared bounds.
-        impossible: Buckets that constraints leave no values for: a position in `graded`, for a
-            cross one for each item.
+        impossible: Buckets whose values constraints exclude: a position in `graded`, for a cross
+            one for each item.
     """
 
     kind: str

@@ -1,4 +1,4 @@
-"""What scenarios declare: cast, values, events, methods, and relations between the values."""
+"""Declarations of scenarios: cast, values, events, methods, and relations between the values."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ GLOBAL_MARK = "global "
 
 
 def setting_name(name: str) -> str:
-    """Return how settings of a run call a global parameter, whatever hides it."""
+    """Return the name of a global parameter in settings of a run."""
     return name.removeprefix(GLOBAL_MARK)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class DeclarationBase:
-    """What every declaration of a scenario has."""
+    """The common base of the declarations of a scenario."""
 
     name: str
     span: Span
@@ -35,8 +35,8 @@ class FieldValue:
 
     Attributes:
         path: Members below the object; behind a list the number of an element of it.
-        value: What it is.
-        span: Of the value.
+        value: Its value.
+        span: Span of the value.
         comments: Comment lines of the constraint.
     """
 
@@ -53,8 +53,8 @@ class Actor(DeclarationBase):
     Attributes:
         type: Its actor type.
         lineage: The type and its library ancestors, most derived first.
-        values: What constraints fix about it.
-        is_given: Only an invoker knows all of its values, and has to pass it.
+        values: The fields that constraints fix.
+        is_given: Its invoker has to pass it, as some of its values are open.
         is_global: One for all scenarios of a run.
     """
 
@@ -67,12 +67,12 @@ class Actor(DeclarationBase):
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Struct(DeclarationBase):
-    """A value of a struct type: one that it equals, or with fields that constraints fix.
+    """A value of a struct type: equal to another one, or with fields that constraints fix.
 
     Attributes:
         type: Its struct type.
-        values: What constraints fix about it.
-        value: What it equals.
+        values: The fields that constraints fix.
+        value: The equal value.
         lineage: The type and its bases, most derived first.
         is_global: One for all scenarios of a run.
     """
@@ -155,7 +155,7 @@ class MethodParameter:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Event(DeclarationBase):
-    """An event; without trigger it is emitted, or comes from outside."""
+    """An event; without a trigger it is emitted, or sent from outside."""
 
     trigger: Trigger | None
     is_implicit: bool

@@ -1,4 +1,4 @@
-"""Expressions of the IR: what is computed, with every name resolved and every unit known."""
+"""Expressions of the IR, with resolved names and known units."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ class EventArgument(ExpressionBase):
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class InvokedValue(ExpressionBase):
-    """A parameter of a scenario that is invoked with a label, known once that stands."""
+    """A parameter of a scenario that is invoked with a label, known after its invocation."""
 
     label: str
     name: str
@@ -157,7 +157,7 @@ class Conditional(ExpressionBase):
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class ListValue(ExpressionBase):
-    """A list; what an element that is a list itself holds belongs to it (§7.4.2.7)."""
+    """A list; the elements of an element that is a list belong to it (§7.4.2.7)."""
 
     elements: tuple[Expression, ...]
 
@@ -215,7 +215,7 @@ class Conversion(ExpressionBase):
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Lookup(ExpressionBase):
-    """What a table has for a value: an enum member for its number, or the other way round."""
+    """The entry of a table for a value: an enum member for its number, or vice versa."""
 
     operand: Expression
     table: tuple[tuple[int | str, int | str], ...]
@@ -238,13 +238,13 @@ class Downcast(ExpressionBase):
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class UserShape(ExpressionBase):
-    """A shape with methods of the scenario's own, as the course of what a modifier controls.
+    """A shape with methods of the scenario, as the profile of the quantity of a modifier.
 
     Attributes:
         operand: The object.
         kind: The shape of the library that it derives from, `any_speed_shape`.
-        compute: Name of its method `compute`, as that of the scenario.
-        duration: Likewise; `None`: it goes on as long as the action.
+        compute: Name of its method `compute` in the scenario.
+        duration: Likewise; `None`: it lasts as long as the action.
     """
 
     operand: Expression
@@ -270,17 +270,17 @@ class HalfRange(ExpressionBase):
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Choices(ExpressionBase):
-    """A set of values of which one holds.
+    """A set of alternative values.
 
     Attributes:
-        elements: The values; a list stands for its elements.
+        elements: The values; a list denotes its elements.
     """
 
     elements: tuple[Expression, ...]
 
 
 Domain: TypeAlias = RangeValue | HalfRange | Choices
-"""What a parameter may be."""
+"""The possible values of a parameter."""
 
 Expression: TypeAlias = (
     Literal

@@ -1,8 +1,7 @@
-"""Inheritance between scenarios (§7.3.9): what a scenario adds to its base.
+"""Inheritance between scenarios (§7.3.9): the additions of a scenario to its base.
 
-A scenario of the IR is whole: it has all that it inherits, as its constraints leave it. Where a
-backend has inheritance of its own, `additions` gives what the scenario adds to the base that it
-refers to.
+A scenario of the IR is complete: it has all inherited members, narrowed by its constraints. For a
+backend with inheritance, `additions` returns the additions of the scenario to its base.
 """
 
 from __future__ import annotations
@@ -26,7 +25,7 @@ NOT_COMPARED = ("comments", "end_comments")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Additions:
-    """What a scenario adds to its base.
+    """The additions of a scenario to its base.
 
     Attributes:
         ahead: New declarations that those of the base need here, and global parameters.
@@ -36,10 +35,10 @@ class Additions:
         early: Constants among those, which others of them read that the base declares before.
         declarations: New declarations.
         constraints: New constraints.
-        coverage: New items, and those that are sampled otherwise.
-        methods: New methods, and those that mean something else.
-        placements: What is placed besides, or all of it.
-        places_anew: All of it: not what the base places.
+        coverage: New items, and those that are sampled differently.
+        methods: New methods, and changed ones.
+        placements: The additional placements, or all of them.
+        places_anew: The placements replace those of the base.
         body: Its behavior; `None` if it is that of the base, or there is none.
     """
 
@@ -72,14 +71,14 @@ class Additions:
 
 
 def additions(scenario: AbstractScenario, base: AbstractScenario) -> Additions | None:
-    """Return what a scenario adds to its base; `None` if it has to be declared as a whole.
+    """Return the additions of a scenario to its base; `None` if it has to be declared as a whole.
 
-    It has to if a value of the base is computed from one that is declared later there, and is no
-    constant here, or if it does without a declaration or a coverage item of the base.
+    This is the case if a value of the base is computed from one that is declared later there, and
+    is no constant here, or if it lacks a declaration or a coverage item of the base.
 
     Args:
-        scenario: The scenario, whole.
-        base: Its base, also whole.
+        scenario: The complete scenario.
+        base: Its complete base.
     """
     names = {each.name for each in base.declarations}
     added = tuple(each for each in scenario.declarations if each.name not in names)
@@ -157,13 +156,13 @@ def _can_narrow(there: Declaration, here: Declaration, base: AbstractScenario) -
 
 
 def _unify(there: Any, here: Any, known: set[str], found: dict[str, Expression]) -> bool:
-    """Whether two parts are the same but for values that the base draws and that are known here.
+    """Whether two parts are equal except for values that the base draws and that are known here.
 
     Args:
         there: The part as the base has it.
         here: The part as it is here.
         known: The names of those values.
-        found: Filled with what they are.
+        found: Filled with these values.
     """
     if isinstance(there, FieldRef) and there.name in known and isinstance(here, ExpressionBase):
         return same(found.setdefault(there.name, here), here)  # type: ignore[arg-type]
@@ -281,12 +280,12 @@ def _read_by(part: Any, bodies: Mapping[str, Expression | None] | None = None) -
 
 
 def _others(ours: Sequence[Any], inherited: Sequence[Any]) -> tuple[Any, ...]:
-    """Return what is not inherited as it is."""
+    """Return the parts that are not inherited unchanged."""
     return tuple(each for each in ours if not any(same(each, other) for other in inherited))
 
 
 def _is_sampled_alike(item: Coverage, inherited: Iterable[Coverage]) -> bool:
-    """Whether an item is inherited, whatever values constraints leave for it here."""
+    """Whether an item is inherited, for any values that constraints leave to it here."""
     plain = replace(item, graded=(), impossible=())
     return any(same(plain, replace(each, graded=(), impossible=())) for each in inherited)
 
@@ -294,7 +293,7 @@ def _is_sampled_alike(item: Coverage, inherited: Iterable[Coverage]) -> bool:
 def _following(
     ours: Sequence[Placement], inherited: Sequence[Placement]
 ) -> tuple[Placement, ...] | None:
-    """Return what is placed besides what the base places; `None` if that is placed otherwise."""
+    """Return the placements in addition to those of the base; `None` if these differ."""
     first, rest = ours[: len(inherited)], ours[len(inherited) :]
     is_same = len(first) == len(inherited) and all(map(same, first, inherited))
     return tuple(rest) if is_same else None

@@ -12,19 +12,19 @@ from osc2tx_shared.classes import dataclass
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Placement:
-    """Where and how an actor is at the start of the scenario, or what the roads of a map are.
+    """The start of an actor, or the roads of a map.
 
     Attributes:
         actor: The actor, or the map.
-        modifiers: What holds at the start.
-        span: Where that is said.
+        modifiers: The modifiers at the start.
+        span: Their span.
         comments: The comment lines above it.
-        of_map: It is about roads.
-        is_throughout: All of it holds later as well, so a scenario that another invokes in the
-            middle of a run can do without.
-        is_implied: Nothing states it; it suits the first action of the actor. It is void if
-            something else says how the actor starts, or if the actor is there already.
-        is_later: That action does not begin with the scenario.
+        of_map: It is a statement about roads.
+        is_throughout: All of it applies later as well, so it is not needed in a scenario that is
+            invoked during a run.
+        is_implied: It is not stated, but required by the first action of the actor. It is void if
+            another placement states the start, or if the actor is on the map already.
+        is_later: The action does not begin with the scenario.
     """
 
     actor: str
@@ -56,16 +56,16 @@ class AbstractScenario:
         name: As in the source.
         comments: The comment lines above it.
         declarations: Cast, values and events in source order, those of its bases first.
-        constraints: What must hold between the values.
+        constraints: The constraints between the values.
         methods: Its methods, in source order.
         placements: Initial placement, in source order.
         base: Key of the scenario that it inherits from; `None` if it does not, or has to be
             declared as a whole.
         end_comments: Comment lines below its last member.
-        overrides: Which labelled members end which others.
-        coverage: What is sampled for coverage.
-        is_imported: It stands here because a scenario of the file invokes or inherits it.
-        is_action: It is an action that says what it does.
+        overrides: Labelled members that end others.
+        coverage: The coverage items.
+        is_imported: It is included because a scenario of the file invokes or inherits it.
+        is_action: It is an action with a `do`.
     """
 
     name: str
@@ -84,7 +84,7 @@ class AbstractScenario:
 
     @property
     def key(self) -> str:
-        """Tell the scenario apart from others of the same name."""
+        """The unique key of the scenario among others of the same name."""
         return f"{self.span.source.name}:{self.span.start}"
 
 
@@ -102,7 +102,7 @@ class Scenario(AbstractScenario):
 
     @property
     def is_runnable(self) -> bool:
-        """Whether it is one to run by itself: no other one invokes it, and it is of the file."""
+        """Whether it can run by itself: no other one invokes it, and it is in the file."""
         return not (self.is_invoked or self.is_imported or self.is_action)
 
 
@@ -120,7 +120,7 @@ class Module:
         enums: Enums of the file, and those of imported files that it mentions.
         modifiers: Modifiers that are functions of their parameters: those of the file, and those
             of imported files that it applies.
-        units: Units of its files that comments tell about.
+        units: Units of its files that have comments.
         comments: The comment lines at the head of the file.
     """
 

@@ -205,7 +205,7 @@ def rewrite(
 
     Args:
         expression: The expression.
-        replacement: Gives what a part becomes; `None` if it stays, and its parts are looked at.
+        replacement: Returns the replacement of a part; `None` to keep it and visit its parts.
     """
     found = replacement(expression)
     if found is not None:
@@ -232,7 +232,7 @@ def rewrite(
 def applied_with(
     calls: Iterable[ModifierCall], values: Mapping[str, Expression]
 ) -> tuple[ModifierCall, ...]:
-    """Return what a function of the user's own stands for, with values for its parameters."""
+    """Return the result of a user-defined function for values of its parameters."""
 
     def value_of(part: Expression) -> Expression | None:
         return values.get(part.name) if isinstance(part, ParameterRef) else None

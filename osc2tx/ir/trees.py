@@ -1,4 +1,4 @@
-"""Questions about trees of behavior: what is before, after, beside and around a member."""
+"""Queries about trees of behavior: members before, after, beside and around a member."""
 
 from __future__ import annotations
 

@@ -45,8 +45,8 @@ class UserType:
         methods: Its own methods, in source order.
         keeps: Its constraints as the source has them, each with the comment lines above it, and
             the comment lines below the type; every object states the constraints that it needs.
-        is_of_library: Whether it is a type of the library, with what `extend` adds to it or to one
-            of its bases; its bases then are those of them.
+        is_of_library: Whether it is a type of the library, with the members that `extend` adds to
+            it or to one of its bases; its bases then are the extended ones.
     """
 
     name: str
@@ -140,10 +140,10 @@ class UserModifier:
 
     Attributes:
         name: Its name.
-        key: Tells it apart from others of the same name.
+        key: Distinguishes it from others of the same name.
         parameters: Its parameters, in source order.
-        calls: What it stands for, in terms of them.
-        keeps: Its constraints as the source has them; every application is checked for itself.
+        calls: The modifiers of its body, in terms of the parameters.
+        keeps: Its constraints as the source has them; every application is checked separately.
     """
 
     name: str
@@ -176,7 +176,7 @@ def lineages(own: Iterable[UserType]) -> dict[str, tuple[str, ...]]:
 
 
 def merged(several: Sequence[tuple[str, ...]]) -> tuple[str, ...]:
-    """Return several lineages as one: what they share comes behind what only some of them have."""
+    """Return several lineages as one: common types follow those that only some of them have."""
     if len(several) == 1:
         return several[0]
     backwards = (name for each in reversed(several) for name in reversed(each))

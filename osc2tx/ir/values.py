@@ -9,7 +9,7 @@ from osc2tx_shared.classes import dataclass
 
 
 class Kind(Enum):
-    """What sort of value an expression has."""
+    """The kind of value of an expression."""
 
     BOOL = "bool"
     INTEGER = "int"
@@ -28,10 +28,10 @@ class ValueType:
     """The type of a value.
 
     Attributes:
-        kind: What sort of value it is.
+        kind: Its kind.
         name: The declared name (`speed`, `vehicle`, `color`, …).
-        element: For a list or range the type of what is in it.
-        members: For an enum that the standard library does not have in this form what it may be.
+        element: The element type of a list or range.
+        members: The members of an enum that the standard library does not have in this form.
     """
 
     kind: Kind
@@ -68,7 +68,7 @@ class CommentBelow(str):
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class ExpressionBase:
-    """What all expressions have: a type and the place they come from."""
+    """The common base of expressions: a type and a span."""
 
     span: Span
     type: ValueType

@@ -1,4 +1,4 @@
-"""Completion and signatures: what may be written at the cursor."""
+"""Completion and signatures at the cursor."""
 
 from __future__ import annotations
 
@@ -62,12 +62,12 @@ _BEHIND_LABEL = re.compile(r"^\s*\w+\s*:\s*\w*$")
 def completions(
     text: str, offset: int, model: SemanticModel | None, job: Job
 ) -> list[lsp.CompletionItem]:
-    """Return what may stand at an offset, each once.
+    """Return the completions at an offset, each once.
 
     Args:
         text: The text.
-        offset: The place of the cursor.
-        model: A program that is near to the text; without one, names of the library alone.
+        offset: The offset of the cursor.
+        model: A program that is similar to the text; without one, names of the library alone.
         job: The file.
     """
     files = file_names(text[text.rfind("\n", 0, offset) + 1 : offset], job)
@@ -136,7 +136,7 @@ def _fields(owner: TypeSymbol | None) -> Iterator[lsp.CompletionItem]:
 def _members(
     reached: TypeSymbol | None, cursor: Cursor, program: Program
 ) -> Iterator[lsp.CompletionItem]:
-    """Yield what may follow the dot behind an object: its actions where it acts, its members."""
+    """Yield the completions after the dot of an object: its actions in a `do`, its members."""
     if reached is None:
         return
     acts = cursor.block is Block.DO and _INVOCATION_PLACE.match(cursor.before)
@@ -173,7 +173,7 @@ def _behavior(path: str, owner: TypeSymbol | None, program: Program) -> Behavior
 
 
 def _invoked(header: str) -> str:
-    """Return what a line with a `with:` block invokes."""
+    """Return the invoked name of a line with a `with:` block."""
     found = re.search(r"([A-Za-z_][\w.\[\]]*)\s*(?:\(.*)?\s*with:?$", header)
     return found[1] if found else ""
 
@@ -218,7 +218,7 @@ def _arguments(
 def _parameters(
     call: OpenCall, cursor: Cursor, owner: TypeSymbol | None, program: Program
 ) -> list[tuple[str, str]]:
-    """Return the parameters of what is called, with their types."""
+    """Return the parameters of the callee, with their types."""
     receiver, _, name = call.callee.rpartition(".")
     if behavior := _behavior(call.callee, owner, program):
         found = dict(_fields_of(behavior))

@@ -18,7 +18,7 @@ _DECLARATION = re.compile(r"(?:scenario|action|modifier|actor|struct|extend)\b")
 
 
 class Block(Enum):
-    """What the lines of a block are."""
+    """The kind of lines of a block."""
 
     FILE = "file"
     TYPE = "type"
@@ -32,8 +32,8 @@ class OpenCall:
     """The innermost parenthesis that is open at the cursor.
 
     Attributes:
-        callee: What stands before it, `ego.drive`.
-        argument: What is written of the present argument.
+        callee: The callee before it, `ego.drive`.
+        argument: The text of the present argument.
         index: Its number, from 0.
         named: The names of arguments that are already there.
     """
@@ -49,7 +49,7 @@ class Cursor:
     """The surroundings of the cursor.
 
     Attributes:
-        block: What the lines of its block are.
+        block: The kind of lines of its block.
         header: The line that opens the block; empty at the level of the file.
         declaration: Offset of the line that begins the enclosing declaration.
         before: The present line up to the cursor, without comments and texts.

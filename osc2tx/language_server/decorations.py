@@ -137,7 +137,7 @@ def _levels(document: Document, start: int, end: int) -> Iterator[lsp.InlayHint]
 
 
 def lenses(document: Document, uri: str) -> list[lsp.CodeLens]:
-    """Return what can be done with each scenario, above its declaration."""
+    """Return the commands for each scenario, above its declaration."""
     model = document.model
     found = []
     for scenario in () if model is None else model.scenarios:

@@ -1,4 +1,4 @@
-"""What a name or a literal is, as Markdown: the declaration, its comments, values in SI units."""
+"""Descriptions of names and literals in Markdown: declaration, comments, values in SI units."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ _KINDS: tuple[tuple[type[Symbol], str], ...] = (
 
 
 def hover(document: Document, position: lsp.Position) -> lsp.Hover | None:
-    """Return the description of what stands at a position."""
+    """Return the description of the name or literal at a position."""
     offset = offset_of(document.source, position)
     found = document.occurrence_at(offset)
     if found is not None:

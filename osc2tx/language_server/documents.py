@@ -1,4 +1,4 @@
-"""A source text with what the compiler knows about it."""
+"""A source text with its compilation."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from osc2tx.syntax.tokens import TokenTable
 
 
 class Occurrence(NamedTuple):
-    """A name in a text, and what it stands for.
+    """A name in a text, and its symbol.
 
     Attributes:
         span: The name.
@@ -74,12 +74,12 @@ class Document:
 
     @property
     def diagnostics(self) -> tuple[Diagnostic, ...]:
-        """What was found and no comment suppresses, in this file or about it."""
+        """The diagnostics that no comment suppresses, in this file or about it."""
         return self.compilation.diagnostics
 
     @property
     def model(self) -> SemanticModel | None:
-        """The program; of a text with syntax errors that of what could be parsed."""
+        """The program; of a text with syntax errors that of the valid parts."""
         return self.compilation.recovered_model
 
     @property
@@ -88,24 +88,24 @@ class Document:
         return self.compilation.model is not None
 
     def imports(self, path: Path) -> bool:
-        """Whether a file counts for it, links followed: it imports that, or looked for it."""
+        """Whether it depends on a file, links followed: it imports the file, or searched it."""
         searched = {} if self.model is None else self.compilation.lookups
         return any(found.path == str(path) for found in searched.values())
 
     def may_use(self, source: SourceFile) -> bool:
-        """Whether its names may stand for declarations of a text: it is that, or imports it."""
+        """Whether its names may denote declarations of a text: it is this text, or imports it."""
         return source.path is not None and (
             source.path == self.job.path or self.imports(real_path(source.path))
         )
 
     @cached_property
     def tokens(self) -> TokenTable:
-        """The tokens, whatever is wrong with the text."""
+        """The tokens, also of a text with errors."""
         return TokenSource(self.source, DiagnosticSink()).scan()
 
     @cached_property
     def occurrences(self) -> tuple[Occurrence, ...]:
-        """The names of this text that stand for something, in order of place."""
+        """The resolved names of this text, in order of position."""
         model = self.model
         if model is None:
             return ()

@@ -1,4 +1,4 @@
-"""Names of files that a line may go on with: maps, and modules to import."""
+"""Names of files that complete a line: maps, and modules to import."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ _STANDARD = ("osc.standard", "osc.standard.all")
 
 
 def file_names(before: str, job: Job) -> Iterable[str] | None:
-    """Return the names that may stand at the end of a line; `None` where no file is named.
+    """Return the names that complete a line; `None` where no file is named.
 
     Args:
         before: The line up to the cursor.
-        job: The file, beside which maps and modules are looked for.
+        job: The file, beside which maps and modules are searched.
     """
     folder = job.path.parent
     if _MAP.search(before):

@@ -53,7 +53,7 @@ def is_same(one: Symbol, other: Symbol) -> bool:
 def references(
     documents: Sequence[Document], symbol: Symbol, *, with_declaration: bool = True
 ) -> Iterator[tuple[Document, Occurrence]]:
-    """Yield the names in some texts that stand for a symbol."""
+    """Yield the names in some texts that denote a symbol."""
     for document in documents:
         for each in document.occurrences:
             if is_same(each.symbol, symbol) and (with_declaration or not each.is_declaration):

@@ -1,4 +1,4 @@
-"""The names of a program as completion asks for them."""
+"""The names of a program for completion."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ class Program:
     Attributes:
         model: The program; `None` if there is none.
         symbols: Its declarations.
-        offset: The place of the cursor.
-        it: What `it` is in the block of the cursor, unless it is the enclosing type.
+        offset: The offset of the cursor.
+        it: The meaning of `it` in the block of the cursor, unless it is the enclosing type.
     """
 
     def __init__(self, model: SemanticModel | None, offset: int) -> None:

@@ -13,7 +13,7 @@ from osc2tx.language_server.documents import Document
 from osc2tx.semantics import SemanticModel
 from osc2tx.support.paths import real_path
 
-# Statements that stand for the line at the cursor, until one lets the rest be understood.
+# Statements that replace the line at the cursor, until the rest can be parsed.
 _FILLERS = ("", "wait elapsed(1s)", "keep(true)", "event cursor")
 
 
@@ -31,7 +31,7 @@ class Project:
         return document
 
     def close(self, path: Path) -> None:
-        """Forget a file; what is on disk counts again."""
+        """Forget the text of a file; the file on disk is used again."""
         self._open.pop(path, None)
 
     def renew_importers(self, path: Path) -> list[Document]:
@@ -102,7 +102,7 @@ def _sources_of(path: Path) -> list[Path]:
 
 
 def _without_line(document: Document, offset: int) -> SemanticModel | None:
-    """Return the program of a text without what is unfinished in the line of an offset."""
+    """Return the program of a text without the unfinished part of the line of an offset."""
     text = document.text
     start = text.rfind("\n", 0, offset) + 1
     end = text.find("\n", offset)

@@ -85,7 +85,7 @@ class OscServer(LanguageServer):
         collect_earlier_trees()  # now that the editor has its answer
 
     def _publish_settings(self, uri: str, error: ConfigError) -> None:
-        """Send what is wrong with the settings as the diagnostic of a document."""
+        """Send an error of the settings as the diagnostic of a document."""
         start = lsp.Range(lsp.Position(0, 0), lsp.Position(0, 0))
         found = [lsp.Diagnostic(start, str(error), source="osc2tx")]
         self.text_document_publish_diagnostics(lsp.PublishDiagnosticsParams(uri, found))
@@ -138,7 +138,7 @@ def _documents(server: OscServer) -> None:
 
 
 def watches_files(client: lsp.ClientCapabilities) -> bool:
-    """Whether an editor can be asked to report changes on disk."""
+    """Whether an editor can report changes on disk."""
     watching = client.workspace and client.workspace.did_change_watched_files
     return bool(watching and watching.dynamic_registration)
 

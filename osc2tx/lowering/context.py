@@ -1,4 +1,4 @@
-"""Context of lowering: the program, diagnostics, and what names mean."""
+"""Context of lowering: the program, diagnostics, and the meaning of names."""
 
 from __future__ import annotations
 
@@ -43,14 +43,14 @@ class Receiver:
     value: ir.Expression
 
 
-@dataclass(frozen=True)  # without slots: what differs in one field is made by a copy of a dict
+@dataclass(frozen=True)  # without slots: a variant is a copy of the dict with one other field
 class LoweringContext:
     """The checked program and the place for complaints, while one scenario is lowered.
 
     Attributes:
         model: The program.
-        analysis: What its constraints allow.
-        sink: Where complaints go.
+        analysis: The result of the analysis of its constraints.
+        sink: Receives the diagnostics.
         lower_with: The function that lowers expressions of any kind.
         globals: The global parameters that the scenario uses, in order of use.
         own_names: Names of the members of the scenario.
@@ -59,12 +59,12 @@ class LoweringContext:
         invoked: The scenarios and composed actions that it invokes, in order of use.
         drawn: Parameters that stand for ranges in its tree, structs that constraints of
             invocations describe, and variables of modifiers, in order of use.
-        place: Where the names in an expression are looked up, in constraints.
-        it: What `it` is there.
+        place: Scope of the names in an expression, in constraints.
+        it: The meaning of `it` there.
         types: Types of declared objects that are not the library's, in order of use.
         combined: Combinations of conditional types that objects are of, by name.
         actions: Actions that are invoked, in order of use.
-        modifiers: Modifiers of the user's own that are applied, in order of use.
+        modifiers: User-defined modifiers that are applied, in order of use.
         given: Values of parameters of invocations that constraints may mention.
         receiver: The object whose method an expression is the body of.
         methods: Methods of types that the scenario calls, by name, in order of use.
@@ -73,15 +73,15 @@ class LoweringContext:
             the object.
         attached: Events and variables of the modifier or extended action that is looked at, and
             their names in the scenario.
-        locals: What parameters stand for, where they are not those of a method.
-        actor: What `actor` is in a modifier; elsewhere it is the field of the scenario.
+        locals: Values of parameters that are not those of a method.
+        actor: The meaning of `actor` in a modifier; elsewhere it is the field of the scenario.
         expanding: Methods of modifiers that the expression is the body of, the outermost first.
         purity: Methods, and whether their results do not depend on the world.
         mentioned: The fields that some expression of the program reads, and in which files.
-        default_keeps: What gives fields a default in the type that declares them.
-        handed_in: Parameters of invoked scenarios that some invocation gives a value.
+        default_keeps: Constraints that give fields a default in the type that declares them.
+        handed_in: Parameters of invoked scenarios that an invocation sets.
         computed: Those of them that some invocation gives no plain name.
-        same_actors: The actors of the scenario that are others.
+        same_actors: The actors of the scenario that are equal to others.
         object_types: The types of which the program may have objects.
         constants: Values of parameters that constraints set to a constant, with the rest of their
             domains.

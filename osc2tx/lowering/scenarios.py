@@ -145,11 +145,11 @@ class _ProgramLowering:
     def lower(
         self, scenario: Composed, is_inherited_only: bool = False
     ) -> tuple[ir.AbstractScenario | None, Sequence[Composed]]:
-        """Return a scenario, None if it is refused, and what it invokes.
+        """Return a scenario, None if it is refused, and the scenarios that it invokes.
 
         Args:
             scenario: The scenario.
-            is_inherited_only: It is imported, and nothing invokes it.
+            is_inherited_only: It is imported and never invoked.
         """
         if scenario not in self._made:
             self._made[scenario] = None, ()  # while it is lowered: it may invoke itself
@@ -191,7 +191,7 @@ def _user_base(scenario: Composed) -> tuple[Composed, ...]:
 def _bases_first(
     lowered: Mapping[Composed, ir.AbstractScenario | None],
 ) -> dict[Composed, ir.AbstractScenario]:
-    """Return what could be lowered, each below its base, which it refers to if it adds to it."""
+    """Return the lowered scenarios, each below its base, to which it refers if it extends it."""
     found: dict[Composed, ir.AbstractScenario] = {}
     for symbol in lowered:
         for each in reversed(list(lineage_of(symbol))):

@@ -45,7 +45,7 @@ def report_unsupported_members(
 
 
 def _report_namesakes(ctx: LoweringContext, owner: sym.TypeSymbol, shared: Set[str]) -> None:
-    """Report members that only their namespaces tell apart: a class knows them by their names."""
+    """Report members that differ only in their namespaces: a class has one member per name."""
     for name in {m.name: None for m in owner.members.values() if m.name in shared}:
         lineage = reversed(list(supertypes(owner)))
         candidates = [each for ancestor in lineage for each in ancestor.named(name)]
@@ -57,7 +57,7 @@ def _report_namesakes(ctx: LoweringContext, owner: sym.TypeSymbol, shared: Set[s
                 "OSC501",
                 other.span,
                 f"another member of `{owner.name}` has the name `{name}`",
-                help="members of one type share their names, whatever their namespace: rename one",
+                help="names of members are unique in a type, across namespaces: rename one",
             )
 
 
@@ -95,7 +95,7 @@ def _report(ctx: LoweringContext, owner: sym.TypeSymbol, statement: ast.Statemen
         ctx.unsupported(
             "OSC506",
             statement.span,
-            f"`{word}` in an action is not carried out: actions are, by the runtime or a package",
+            f"`{word}` in an action is not executed: the runtime or a package implements actions",
             help=f"make it a scenario, `scenario {owner.qualified_name}`",
         )
 

@@ -48,9 +48,9 @@ def lower_type(type_: types.Type) -> ir.ValueType:
 
 
 def _own_members(enum: sym.EnumSymbol) -> tuple[str, ...]:
-    """Return the members of an enum that the library does not have, or not all of them.
+    """Return the members of an enum that is not completely in the library.
 
-    Members of one value are one: the first name stands for it, as in `ir.EnumValue`.
+    Members of equal value are one member with the first name, as in `ir.EnumValue`.
     """
     if all(member.origin == "library" for member in enum.members.values()):
         return ()

@@ -1,7 +1,7 @@
 """The tools: functions from texts to plain data.
 
 A scenario is given as a text and checked as if it were a file of the working folder: it may import
-what is there. Nothing is written without an output folder, and nothing outside it.
+the files there. Nothing is written without an output folder, and nothing outside it.
 """
 
 from __future__ import annotations
@@ -43,14 +43,14 @@ SHOWN_KINDS = ("event", "collision", "action")  # of lines of a trace, besides t
 
 
 class CannotAnswer(Exception):
-    """A tool was used in a way that has no answer; the message states why."""
+    """A call of a tool has no answer; the message states why."""
 
 
 class Answers:
     """The tools, over one folder.
 
     Attributes:
-        folder: Where imported files and settings are looked for.
+        folder: Folder of imported files and settings.
         out: Folder of the outputs; `None` to write nothing.
     """
 
@@ -60,7 +60,7 @@ class Answers:
         self.out = out
 
     def check(self, text: str, name: str, fix: Fixes = "none") -> Answer:
-        """Return the diagnostics of a scenario, and its text after fixes if they are wanted."""
+        """Return the diagnostics of a scenario, and its text after fixes if they are requested."""
         self._within(name)
         answer: Answer = {}
         if fix != "none":
@@ -81,7 +81,7 @@ class Answers:
         return answer
 
     def run(self, text: str, name: str, scenario: str | None, seed: int, max_time: float) -> Answer:
-        """Run a scenario in the embedded world; return its verdict and what happened."""
+        """Run a scenario in the embedded world; return its verdict, actions and collisions."""
         with self._scenarios(text, name, scenario) as chosen:
             stated = read_options(dict(self._job(name).run), is_trusted=False)
             folders = (*stated.map_path, self.folder / Path(name).parent)

@@ -33,7 +33,7 @@ def make_server(folder: Path, out: Path | None = None) -> MCPServer:
     """Return a server of the tools.
 
     Args:
-        folder: Where imported files and settings are looked for.
+        folder: Folder of imported files and settings.
         out: Folder of the outputs; `None` to write nothing.
     """
     server = MCPServer(

@@ -21,7 +21,7 @@ class Member:
 
     Attributes:
         kind: `field`, `variable`, `parameter`, `method` or `value`.
-        name: As one writes it.
+        name: Its name.
         type: Its type; of a method that of its result, empty for one without.
         parameters: Of a method, as declared.
         default: As declared; empty without one.
@@ -71,7 +71,7 @@ def declarations() -> tuple[Declaration, ...]:
 
 
 def _both(new: Declaration, old: Declaration | None) -> Declaration:
-    """Join what both versions have; where only one has a member, it says so."""
+    """Join the members of both versions; a member of only one version is marked."""
     if old is None or old == new:
         return new
     names = {(each.name, each.type) for each in old.members}

@@ -18,8 +18,8 @@ class Shown:
     """Facts shown about an action or modifier; empty where there are none.
 
     Attributes:
-        carla: How it does in CARLA.
-        xml: Since which version OpenSCENARIO XML says it, or why not.
+        carla: Its support in CARLA.
+        xml: The first version of OpenSCENARIO XML with it, or the reason why there is none.
         file: A scenario that uses it.
         example: Lines of that.
         xml_example: The same in the newest OpenSCENARIO XML.
@@ -48,9 +48,9 @@ def _table() -> dict[str, Shown]:
 
 _ENDS = {
     "goal": "It ends when its goal is reached.",
-    "at_once": "It reaches its goal in no time.",
+    "at_once": "It reaches its goal instantly.",
     "instant": "It takes no time.",
-    "open": "It does not end by itself: `duration`, `until` or what surrounds it ends it.",
+    "open": "It is open-ended: `duration`, `until` or a surrounding composition ends it.",
 }
 
 
@@ -76,12 +76,12 @@ class Entry:
 
     @property
     def key(self) -> str:
-        """How the entry is asked for: `action vehicle.drive`."""
+        """The name of the entry in queries: `action vehicle.drive`."""
         return f"{self.declaration.kind} {self.declaration.name}"
 
     @property
     def shown(self) -> Shown:
-        """An example, and what CARLA and OpenSCENARIO XML make of it."""
+        """An example, with its support in CARLA and OpenSCENARIO XML."""
         return shown(self.key)
 
     @property
@@ -117,7 +117,7 @@ def _entry(declaration: Declaration, users: tuple[str, ...]) -> Entry:
         modifier = known.modifiers[own]
         return Entry(declaration, _modifier_facts(modifier), (), users)
     if declaration.name in known.abstract:
-        return Entry(declaration, ("It is only there to be inherited from.",), (), users)
+        return Entry(declaration, ("It is a base for others.",), (), users)
     bases = _bases(declaration)
     owners = {declaration.name, *(base.name for base in bases)}
     actions = tuple(
@@ -131,7 +131,7 @@ def _entry(declaration: Declaration, users: tuple[str, ...]) -> Entry:
 
 
 def _bases(declaration: Declaration) -> list[Declaration]:
-    """Return what an actor or a struct inherits from, the nearest first."""
+    """Return the supertypes of an actor or a struct, the nearest first."""
     by_name = {(each.kind, each.name): each for each in declarations()}
     bases: list[Declaration] = []
     while declaration.kind in ("actor", "struct") and declaration.base:
@@ -152,7 +152,7 @@ def _action_facts(action: ActionEntry) -> tuple[str, ...]:
 def _modifier_facts(modifier: ModifierEntry) -> tuple[str, ...]:
     facts = []
     if modifier.placement:
-        facts.append("It can say how a scenario starts.")
+        facts.append("It can state the start of a scenario.")
     if modifier.bounds:
         facts.append("An open-ended action ends when the state of this modifier is reached.")
     return (*facts, *_shared_facts(modifier))
@@ -161,9 +161,9 @@ def _modifier_facts(modifier: ModifierEntry) -> tuple[str, ...]:
 def _shared_facts(entry: ActionEntry | ModifierEntry) -> tuple[str, ...]:
     facts = []
     if entry.required:
-        facts.append(f"It must have {_listed(entry.required)}.")
+        facts.append(f"It requires {_listed(entry.required)}.")
     if entry.needs:
-        facts.append(f"The world must offer {_listed(entry.needs)}; a world that does not says so.")
+        facts.append(f"The world must support {_listed(entry.needs)}.")
     return tuple(facts)
 
 

@@ -1,4 +1,4 @@
-"""What the reference has beside declarations: the language, members of the library, units."""
+"""Topics of the reference besides declarations: the language, members of the library, units."""
 
 from __future__ import annotations
 
@@ -23,9 +23,9 @@ class Topic:
 
     Attributes:
         kind: `directive`, `event condition`, `method`, `field`, `unit`, …
-        name: How it is asked for first: `until`, `vehicle.length`, `kph`.
+        name: Its main name in queries: `until`, `vehicle.length`, `kph`.
         names: All names by which it is found.
-        signature: How it is written.
+        signature: Its syntax.
         section: Of OpenSCENARIO DSL 2.2; empty if the text names none.
         meaning: Its description, whole sentences or a phrase.
         example: Lines that use it; empty without.

@@ -1,16 +1,15 @@
 """Semantic analysis: from syntax trees to a checked program.
 
 Input: an `ast.File`, and a callable that loads the files it imports. Output: a `SemanticModel`
-(`model`, over `symbols` and `types`) and diagnostics OSC2xx - OSC4xx, and OSC6xx for what a dialect
-lets pass. `dump_model` (`dump`) prints a model.
+(`model`, over `symbols` and `types`) and diagnostics OSC2xx - OSC4xx, and OSC6xx for relaxations of
+a dialect. `dump_model` (`dump`) prints a model.
 
 Order of events, with the modules that do the work; `builder` runs them:
 
-1. Imports (`imports`): files in the order in which they count, and the parts of the library that
-   are wanted. `library` builds those once per process, with the `prelude` of the dialect
-   (`dialects`); programs are layered on them (`scope`). A program with extensions gets a library of
-   its own, so that they stay its own.
-2. Definition pass (`collect`, `members`): a symbol for everything that is declared.
+1. Imports (`imports`): files in their order, and the required parts of the library. `library`
+   builds those once per process, with the `prelude` of the dialect (`dialects`); programs are
+   layered on them (`scope`). A program with extensions gets its own copy of the library.
+2. Definition pass (`collect`, `members`): a symbol for each declaration.
 3. Resolution pass, first half (`resolve`): exports (`exports`), actors and bases (`resolve_types`,
    `inheritance`), physical types and units (`physical`), extensions (`extensions`), enum values
    (`enums`), signatures.
@@ -18,13 +17,13 @@ Order of events, with the modules that do the work; `builder` runs them:
    `constraints`, `inheritance_conditions`, `coverage` (with `coverage_items`).
    Expressions: the package `expressions`. Arguments: `binding`.
    Names: `member_lookup`, `builtins`, `unknown_names`. Types: `assignability`, `conversions`. All
-   share a `Resolution` (`resolution`) and get the place they look from as an `Environment`.
+   share a `Resolution` (`resolution`) and get the position of the text as an `Environment`.
 
 `units` converts authored values to SI, for the next stage.
 
-Invariants: no input raises; each mistake is reported once, what follows from it has the error type
-and stays quiet; every expression of the user's files has a type; a shared library is never
-written to once it is built.
+Invariants: no input raises; each mistake is reported once, its consequences have the error type and
+are not reported; every expression of the user's files has a type; a shared library is never changed
+after it is built.
 """
 
 from osc2tx.semantics.builder import ModelBuilder

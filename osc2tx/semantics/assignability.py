@@ -41,9 +41,9 @@ def check_value(
     Args:
         r: The state of the pass.
         expression: The value.
-        target: The type it is for.
-        env: Where it stands.
-        what: What the value is for, at the beginning of a message.
+        target: The required type.
+        env: Its environment.
+        what: The use of the value, for the beginning of a message.
         allow_range: Whether it may be a range of the target type.
         advise: Returns the help for a value of a type that does not fit.
     """
@@ -117,7 +117,7 @@ def _mismatch_help(expression: ast.Expression, source: Type, target: Type) -> He
 
 
 def _unquoted(expression: ast.StringLiteral, target: Type) -> Help:
-    """Say that a member of an enum, or a quantity, is written without quotes."""
+    """Return the help that a member of an enum, or a quantity, is written without quotes."""
     text = expression.value
     is_member = isinstance(target, EnumType) and text in target.symbol.members
     is_quantity = isinstance(target, PhysicalType) and text[:1].isdigit() and len(text) < 30
@@ -208,5 +208,5 @@ def _check_sign(r: Resolution, expression: ast.Expression, target: Type, what: s
 
 
 def _named(what: str, target: Type) -> str:
-    """Return the subject of a message; a name that a type has too is told apart from the type."""
+    """Return the subject of a message; a name that is also a type is marked as a name."""
     return f"the value of {what}" if what == f"`{target}`" else what

@@ -77,7 +77,7 @@ class EventType:
 
 @dataclass(frozen=True, slots=True)
 class VoidType:
-    """What a method without result returns."""
+    """The result type of a method without result."""
 
     def __str__(self) -> str:
         """For messages."""
@@ -86,7 +86,7 @@ class VoidType:
 
 @dataclass(frozen=True, slots=True)
 class ErrorType:
-    """The type of what was already reported; every check passes it in silence."""
+    """The type of an expression with a reported error; every check accepts it."""
 
     def __str__(self) -> str:
         """For messages, where it never should appear."""
@@ -95,4 +95,4 @@ class ErrorType:
 
 EVENT, VOID, ERROR = EventType(), VoidType(), ErrorType()
 OBJECT = VOID
-"""What is expected of a value whose members are wanted: no member of an enum."""
+"""The expected type of a value whose members are accessed: not a member of an enum."""

@@ -30,7 +30,7 @@ from osc2tx_shared.classes import dataclass
 
 
 def tell_types_apart(scope: Scope) -> None:
-    """Rename the types of a layer whose names stand for other types as well."""
+    """Rename the types of a layer whose names denote other types as well."""
     for name, group in scope.types.items():
         below = scope.parent is not None and scope.parent.types_named(name)
         for symbol in group if below else group[1:]:
@@ -43,11 +43,11 @@ class ModelBuilder:
     """Builds the semantic model of a program; never raises on bad input.
 
     Attributes:
-        sink: Where reports go.
+        sink: Receives the diagnostics.
         standard: `"2.1"` or `"2.2"`.
         dialect: The dialect of the file.
         load: Finds and parses imported files; `None` means that there is no such file.
-        import_help: Says what may help if there is no module of a name.
+        import_help: Returns the help for a module that is not found.
     """
 
     sink: DiagnosticSink

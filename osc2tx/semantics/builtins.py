@@ -60,7 +60,7 @@ def _scenario(name: str) -> ScenarioSymbol:
 
 
 def builtin_field(name: str, type_: Type) -> FieldSymbol:
-    """Make a field that no declaration stands for."""
+    """Make a field without a declaration."""
     return FieldSymbol(name=name, namespace=NULL, span=SPAN, origin=BUILTIN, owner=None, type=type_)
 
 
@@ -71,11 +71,11 @@ LIFE_CYCLE: Mapping[str, EventSymbol] = {
 }
 
 BEHAVIOR = _scenario("behavior")
-"""What `it` is in a modifier for any behavior."""
+"""The type of `it` in a modifier for any behavior."""
 
 COMPOSITION = _scenario("composition")
 DIRECTIVE = _scenario("directive")
-"""What labels of compositions and of `wait`, `emit`, `call` stand for."""
+"""The types of labels of compositions and of `wait`, `emit`, `call`."""
 
 OVERLAP = _enum("overlap", "equal", "start", "end", "initial", "final", "inside", "full", "any")
 OVERRIDE_MODE = _enum("override_mode", "on_start", "when_active")

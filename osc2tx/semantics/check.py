@@ -32,7 +32,7 @@ from osc2tx.syntax import ast
 
 
 def check_bodies(r: Resolution) -> None:
-    """Check what the layer declares in bodies of types, its own and extended ones."""
+    """Check the declarations of the layer in bodies of types, its own and extended ones."""
     owners = r.scope.own_types()
     for owner in owners:
         for member in _labels(owner):

@@ -35,8 +35,8 @@ from osc2tx.semantics.types import (
 INTEGERS = (INT, UINT)
 NUMBERS = (INT, UINT, FLOAT)
 
-# Struct of the library -> the field whose values may stand for it. Phases of traffic lights consist
-# of bulbs (§8.15.6.1); all examples of the standard write their states instead (§8.15.10.5).
+# Struct of the library -> the field whose values convert to it. Phases of traffic lights consist of
+# bulbs (§8.15.6.1); all examples of the standard write their states instead (§8.15.10.5).
 STANDS_FOR = {"traffic_light_bulb": "state"}
 
 
@@ -81,7 +81,7 @@ def type_of_owner(symbol: TypeSymbol) -> Type:
 
 
 def stand_in(type_: Type) -> Type | None:
-    """Return the type of the values that may stand for those of a struct of the library."""
+    """Return the type of the values that convert to a struct of the library."""
     if not isinstance(type_, StructType) or type_.symbol.origin != "library":
         return None
     field = type_.symbol.members.get(STANDS_FOR.get(type_.symbol.name, ""))
@@ -89,7 +89,7 @@ def stand_in(type_: Type) -> Type | None:
 
 
 def converts(source: Type, target: Type) -> bool:
-    """Whether a value of one type can stand where another is wanted."""
+    """Whether a value of one type can be used where another one is required."""
     if isinstance(source, ErrorType) or isinstance(target, ErrorType) or source == target:
         return True
     match source, target:

@@ -14,13 +14,13 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Dialect:
-    """A way of writing scenarios that one meets.
+    """A set of accepted deviations from the standard.
 
     Attributes:
-        name: What `--dialect` calls it.
+        name: Its name for `--dialect`.
         prelude: Library text that is loaded on top of the standard library.
-        relaxed: Codes of the relaxations that it grants; each is a warning 6xx.
-        library_files: File names that stand for the library if no such file exists.
+        relaxed: Codes of its relaxations; each is a warning 6xx.
+        library_files: File names that denote the library if no such file exists.
         unprefixed_library: Whether library names need neither prefix nor `use`.
     """
 
@@ -32,7 +32,7 @@ class Dialect:
 
 
 LIBRARY_FILES = frozenset({"domain.osc", "types.osc", "standard.osc"})
-RUNNER_FILE = "basic.osc"  # where ScenarioRunner declares its types; stands for the prelude
+RUNNER_FILE = "basic.osc"  # where ScenarioRunner declares its types; denotes the prelude
 
 ASAM = Dialect("asam")
 CARLA = Dialect(
@@ -47,7 +47,7 @@ DIALECTS: Mapping[str, Dialect] = {dialect.name: dialect for dialect in (ASAM, C
 
 @dataclass(frozen=True, slots=True)
 class PreludeHint:
-    """What `asam` says about a name that only a prelude declares."""
+    """The help of dialect `asam` for a name that only a prelude declares."""
 
     dialect: str
     instead: str
@@ -57,7 +57,7 @@ PRELUDE_MEMBERS: Mapping[str, PreludeHint] = {
     "name": PreludeHint("carla", "the name of the field itself names the object"),
     "model": PreludeHint("carla", "use `geometry_reference` for a 3D model"),
     "position": PreludeHint(
-        "carla", "`pose.position` is the place, `road_distance(…)` a distance along the road"
+        "carla", "`pose.position` is the position, `road_distance(…)` a distance along the road"
     ),
 }
 PRELUDE_PARAMETERS: Mapping[tuple[str, str], PreludeHint] = {
@@ -82,12 +82,12 @@ PRELUDE_BEHAVIORS: Mapping[tuple[str, str], PreludeHint] = {
 
 @dataclass(frozen=True, slots=True)
 class ParameterAlias:
-    """What another name of a parameter stands for.
+    """The meaning of another name of a parameter.
 
     Attributes:
         parameter: The standard's parameter, which takes the value.
-        implied: A further parameter and the enum member that it gets.
-        note: What is easily misread about it.
+        implied: Another parameter and its enum member.
+        note: A difference that is easily missed.
     """
 
     parameter: str
@@ -101,14 +101,14 @@ class ParameterAlias:
         return f"{self.parameter}: …{further}"
 
 
-# What forks of ScenarioRunner give to actions of the library, and why nothing needs it here.
+# Arguments of forks of ScenarioRunner for actions of the library, and why they are not needed here.
 LEFT_OUT: Mapping[tuple[str, str], str] = {
     ("drive", "adjust"): "an actor follows its path as it is",
     ("walk", "adjust"): "an actor follows its path as it is",
 }
 
-# Other names for what the standard has. Every dialect explains with them what to write instead;
-# one that relaxes OSC612 to OSC615 and OSC619 reads them as what they stand for.
+# Other names for names of the standard. Every dialect uses them for help; a dialect that relaxes
+# OSC612 to OSC615 and OSC619 accepts them.
 TYPE_ALIASES: Mapping[str, str] = {
     "velocity": "speed",
     "distance": "length",
@@ -123,7 +123,7 @@ PARAMETER_ALIASES: Mapping[tuple[str, str], ParameterAlias] = {
     },
     ("change_lane", "lane_changes"): ParameterAlias("lane"),
     ("change_speed", "desired_speed"): ParameterAlias(
-        "speed", note="it is a change against the present speed, not the speed to reach"
+        "speed", note="it is a difference to the present speed, not the target speed"
     ),
     ("change_speed", "delta"): ParameterAlias("speed"),
     ("assign_speed", "target"): ParameterAlias("speed"),
@@ -156,7 +156,7 @@ QUANTITY_TEXTS: Mapping[str, str] = {"_speed": "speed"}
 
 @dataclass(slots=True)
 class Relaxations:
-    """What one run has relaxed so far; each kind is reported once per file.
+    """The relaxations of one run so far; each kind is reported once per file.
 
     Attributes:
         dialect: The dialect of the file.

@@ -115,7 +115,7 @@ INDENT = "  "
 
 
 def dump_model(model: SemanticModel) -> str:
-    """Return the symbols of the user's files, then what each expression and call means."""
+    """Return the symbols of the user's files, then the meaning of each expression and call."""
     lines: list[str] = []
     namespace = None
     for symbol in model.symbols:

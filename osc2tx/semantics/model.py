@@ -21,12 +21,12 @@ from osc2tx_shared.classes import dataclass
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Binding:
-    """What a call, invocation, modifier application or emit means.
+    """The meaning of a call, invocation, modifier application or emit.
 
     Attributes:
-        callee: What is called; an event's arguments are bound too.
+        callee: The called symbol; arguments of events are bound too.
         receiver: The expression before the dot; `None` where the actor is implicit.
-        arguments: Parameter and value, in source order. Left-out parameters are absent.
+        arguments: Parameter and value, in source order. Omitted parameters are absent.
     """
 
     callee: Symbol
@@ -39,17 +39,17 @@ class SemanticModel:
     """A checked program: symbols, and side tables over its syntax trees.
 
     Attributes:
-        root: The file that was asked for.
+        root: The file to compile.
         files: All files, imported ones first.
         scenarios: The scenarios of the root file, in source order.
         actions: All actions that are known, the library's included.
         types: Type of every expression of the user's files, and of the type names of fields.
-        references: What a `NameExpression`, `MemberAccess`, `EnumLiteral` or `Name` stands for.
-        bindings: What an `Invocation`, `ModifierApplication`, `Call`, `CallDirective` or
-            `EmitDirective` means.
+        references: The symbol of a `NameExpression`, `MemberAccess`, `EnumLiteral` or `Name`.
+        bindings: The meaning of an `Invocation`, `ModifierApplication`, `Call`, `CallDirective` or
+            `EmitDirective`.
         units: The unit of a `PhysicalLiteral`.
-        quantities: What the texts read that a dialect takes for quantities of actors.
-        symbols: What the user's files declare, in source order, imported files first.
+        quantities: The values of strings that a dialect reads as quantities of actors.
+        symbols: The symbols of the user's files, in source order, imported files first.
         known_units: Every unit, also those of the library.
         elements: The elements of lists of objects that constraints describe one by one.
     """
@@ -74,11 +74,11 @@ class SemanticModel:
 
     @cached_property
     def callees(self) -> frozenset[Symbol]:
-        """What is called, invoked or applied anywhere."""
+        """All symbols that are called, invoked or applied."""
         return frozenset(binding.callee for binding in self.bindings.values())
 
     def element_of(self, list_: Symbol | None, index: ast.Expression) -> FieldSymbol | None:
-        """Return an element of a list that is an object of its own."""
+        """Return an element of a list that is a declared object."""
         elements = self.elements.get(list_, ()) if isinstance(list_, FieldSymbol) else ()
         number = index.value if isinstance(index, ast.IntegerLiteral) else len(elements)
         return elements[number] if number < len(elements) else None
@@ -88,9 +88,9 @@ class SemanticModel:
         return self.types.get(expression, ERROR)
 
     def symbol_of(self, node: ast.Node) -> Symbol | None:
-        """Return what a name stands for."""
+        """Return the symbol of a name."""
         return self.references.get(node)
 
     def binding_of(self, node: ast.Node) -> Binding:
-        """Return what a call means; only asked for programs without errors."""
+        """Return the meaning of a call; only for programs without errors."""
         return self.bindings[node]

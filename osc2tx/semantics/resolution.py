@@ -31,12 +31,12 @@ from osc2tx_shared.classes import dataclass, replace
 
 @dataclass(frozen=True, slots=True)
 class Environment:
-    """What an expression sees around it.
+    """The environment of an expression.
 
     Attributes:
         context: Namespace and use list of the text.
-        owner: The type in whose body the expression stands.
-        it: What `it` is, if it is not the instance of the owner.
+        owner: The type whose body contains the expression.
+        it: The meaning of `it`, if it is not the instance of the owner.
         actor: The type of `actor`.
         invoked: The behavior whose `with` block this is.
         locals: Method parameters and event fields.
@@ -59,7 +59,7 @@ class Environment:
 
 
 class InferFunction(Protocol):
-    """How any part of the pass asks for the type of an expression."""
+    """The function that returns the type of an expression."""
 
     def __call__(
         self,
@@ -68,7 +68,7 @@ class InferFunction(Protocol):
         env: Environment,
         expected: Type | None = None,
     ) -> Type:
-        """Return the type, and report what is wrong."""
+        """Return the type, and report errors."""
 
 
 @dataclass(slots=True, eq=False, repr=False)
@@ -77,18 +77,18 @@ class Resolution:
 
     Attributes:
         scope: All definitions.
-        sink: Where reports go.
-        relaxations: The dialect, and what it has let pass.
+        sink: Receives the diagnostics.
+        relaxations: The dialect, and its relaxations so far.
         standard: `"2.1"` or `"2.2"`.
         infer: The expression typer.
-        unimported: Gives the library if the program has not imported (all of) it.
+        unimported: Returns the library if the program has not imported all of it.
         event_fields: The event behind each name that `as` bound.
         actor_fields: The implicit field `actor` per actor type.
         implied_objects: The objects that a program has without declaring them, per type.
-        quantities: What texts of ScenarioRunner such as `"npc_speed"` read.
-        adopted: Fields that stand for actors of the caller, which a dialect finds by their names.
-        invoked: What the name in an invocation was found to be; `None` if it was reported.
-        visible: The names that are seen in a type, and outside of all: for suggestions.
+        quantities: The values of strings of ScenarioRunner such as `"npc_speed"`.
+        adopted: Fields for actors of the caller, which a dialect identifies by their names.
+        invoked: The symbol of the name in an invocation; `None` if it was reported.
+        visible: The names that are visible in a type, and outside of all: for suggestions.
     """
 
     scope: Scope
@@ -138,7 +138,7 @@ class Resolution:
         help: Help = None,
         labels: Sequence[Label] = (),
     ) -> bool:
-        """Whether the dialect lets something pass; then it is warned about, once per file."""
+        """Whether the dialect accepts a deviation, which is then a warning, once per file."""
         if code not in self.relaxations.dialect.relaxed:
             return False
         if self.relaxations.is_new(code, span.source.name, key):

@@ -39,7 +39,7 @@ S = TypeVar("S", bound=Symbol)
 
 @dataclass(frozen=True, slots=True)
 class Context:
-    """Where a piece of text stands: its namespace, and what that may use unprefixed."""
+    """The context of a text: its namespace, and the namespaces that it uses."""
 
     namespace: str = NULL
     uses: tuple[str, ...] = ()
@@ -53,13 +53,13 @@ class Scope:
 
     Attributes:
         parent: The layer below, already resolved.
-        types: What can be named as a type, by simple name.
-        behaviors: Scenarios and actions by simple name, whatever their actor.
+        types: Types by simple name.
+        behaviors: Scenarios and actions of all actors, by simple name.
         modifiers: Modifiers by simple name.
         globals: Global parameters by simple name.
         units: Units; one namespace for the whole program (§7.3.4).
         primitives: Primitive types with methods of their own.
-        exports: What each namespace exports; an item without name is a star.
+        exports: The exports of each namespace; an item without name is a star.
         named_exports: Exports of single names, which `exports` fills into `exports`.
         contexts: The context of each declaration and each member of a type.
         declared: Symbols in the order of their declarations.
@@ -68,7 +68,7 @@ class Scope:
         extensions: Extensions in source order.
         extended: Symbols of the layers below that this layer extends.
         physical_types: The declared type of each dimension.
-        overridden: What a method of an extension stands for from now on.
+        overridden: The methods that methods of extensions replace.
     """
 
     parent: Scope | None = None

@@ -1,8 +1,8 @@
-"""Symbols, the named things of a program, and the types that refer to them.
+"""Symbols, the named declarations of a program, and the types that refer to them.
 
 The definition pass makes symbols; the resolution pass fills `type`, `base` and the like. After
-that nobody writes to a symbol any more. Symbols have types and types have symbols, so both are
-here; `types` has all types.
+that, symbols do not change. Symbols have types and types have symbols, so both are here; `types`
+has all types.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from osc2tx_shared.classes import dataclass
 
 @dataclass(slots=True, kw_only=True, eq=False, repr=False)
 class Symbol:
-    """A named thing.
+    """A named declaration.
 
     Attributes:
         name: Simple name.
@@ -107,7 +107,7 @@ class FieldSymbol(Symbol):
 
 @dataclass(slots=True, kw_only=True, eq=False, repr=False)
 class EventSymbol(Symbol):
-    """An event; `is_implicit` if a dialect let it be used without declaration."""
+    """An event; `is_implicit` if it is used without declaration, as a dialect allows."""
 
     owner: MemberOwner | None
     parameters: tuple[ParameterSymbol, ...] = ()
@@ -139,7 +139,7 @@ Member: TypeAlias = FieldSymbol | EventSymbol | MethodSymbol | LabelSymbol
 
 @dataclass(slots=True, kw_only=True, eq=False, repr=False)
 class TypeSymbol(Symbol):
-    """What structs, actors, behaviors and modifiers have in common.
+    """The common base of structs, actors, behaviors and modifiers.
 
     Attributes:
         members: Own members by name, those of extensions included; where two namespaces have the
@@ -156,7 +156,7 @@ class TypeSymbol(Symbol):
 
     @property
     def is_as_library(self) -> bool:
-        """Whether the library alone says what it has."""
+        """Whether the library alone declares its members."""
         return self.origin == "library" and not self.is_extended
 
     @property

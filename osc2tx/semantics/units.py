@@ -1,9 +1,9 @@
 """Conversion of authored values to SI (§7.3.4).
 
 The library's units are converted with the factor and offset of their declaration, which a test
-holds against pint. Units that a program declares itself go through pint, which also checks that
-the declaration is sound. Its registry starts empty: only declared units exist, and the plane angle
-is a dimension of its own, as in the language. pint is slow to import, so it is loaded on first use.
+compares with pint. Units that a program declares are converted by pint, which also checks the
+declaration. Its registry starts empty: only declared units exist, and the plane angle is a
+dimension of its own, as in the language. pint is slow to import, so it is loaded on first use.
 """
 
 from __future__ import annotations
@@ -60,7 +60,7 @@ def to_si(value: float, unit: UnitSymbol) -> float:
 
 
 def to_si_with_pint(value: float, unit: UnitSymbol) -> float:
-    """Return the same by way of pint."""
+    """Return the same, computed by pint."""
     registry = _registry()
     if not isinstance(unit.type, PhysicalType):
         raise InternalCompilerError(f"unit {unit.name} has no physical type")

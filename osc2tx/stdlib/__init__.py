@@ -59,7 +59,7 @@ def library_file(name: str, standard: str) -> ast.File:
 
 @cache
 def newer_members(name: str, standard: str) -> frozenset[str]:
-    """Return what a declaration has in the newest version of the standard, and not in another.
+    """Return the members of a declaration that only the newest version of the standard has.
 
     Args:
         name: Of an enum, a primitive type, an action or a modifier of the library.

@@ -1,4 +1,4 @@
-"""What the library means where its own texts do not say it, from `members.toml`."""
+"""Meanings of the library that its texts do not state, from `members.toml`."""
 
 from __future__ import annotations
 

@@ -14,7 +14,7 @@ from osc2tx.syntax.packed_ast import PackingError, pack, unpack
 from osc2tx.version import __version__
 from osc2tx_shared.cache import Snapshots
 
-# What the AST of a text depends on besides the text.
+# The inputs of the AST of a text besides the text.
 SNAPSHOTS = Snapshots(
     kind=f"osc2tx {__version__} AST 1",
     code=Path(__file__).resolve().parent.parent,

@@ -18,9 +18,9 @@ LOSS_REPORT = ".xosc.report.json"
 
 
 def is_committed(name: str) -> bool:
-    """Whether a file belongs into version control: what is run, and so what a reviewer reads.
+    """Whether a file belongs into version control: it is executed, so reviewers read it.
 
-    Source maps hold line numbers, and reports only say what the others show; builds write them.
+    Source maps hold line numbers, and reports derive from the others; builds write them.
     """
     return name.endswith((MODULE, XML))
 

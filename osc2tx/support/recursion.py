@@ -28,7 +28,7 @@ class _Collector:
         self._unseen = 0
 
     def collect_earlier(self) -> None:
-        """Collect what earlier programs left, once it is much."""
+        """Collect the garbage of earlier programs, if it is large."""
         if self._unseen > MOST_UNSEEN:
             gc.collect()
             self._unseen = 0
@@ -44,7 +44,7 @@ _COLLECTOR = _Collector()
 
 
 def collect_earlier_trees() -> None:
-    """Collect what earlier programs left, if it is much, while nobody waits for the next one."""
+    """Collect the garbage of earlier programs, if it is large, while the process is idle."""
     _COLLECTOR.collect_earlier()
 
 

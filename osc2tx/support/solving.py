@@ -1,10 +1,10 @@
-"""Values that keep constraints, found by narrowing instead of trying.
+"""Values that satisfy constraints, found by narrowing instead of rejection.
 
-Each variable has what it may still be: an interval of numbers, or a set. A relation narrows its
+Each variable has a domain: an interval of numbers, or a set. A relation narrows its
 variables: `a < b + 2m` their bounds, an `or` whose other parts cannot hold the one that is left.
-Values are chosen one variable at a time, each at a given place within what the others leave. So
-orders, sums with a given value and clauses are solved without trying. Relations of another kind
-narrow nothing; the caller has to test them.
+Values are chosen one variable at a time, each at a given fraction of the domain that the others
+leave. So orders, sums with a given value and clauses are solved without rejection. Relations of
+another kind narrow nothing; the caller has to test them.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ class Contradiction(Exception):
 
 
 class Store:
-    """What variables may still be.
+    """The domains of variables.
 
     Args:
         domains: By variable.
@@ -157,7 +157,7 @@ class Linear(Relation):
 
     Args:
         weights: By variable.
-        rest: What is added to the sum.
+        rest: The constant term.
         is_strict: It is below zero.
     """
 
@@ -179,7 +179,7 @@ class Linear(Relation):
         return least < 0.0 or (not self._is_strict and least <= self._slack)
 
     def demand(self, store: Store) -> None:
-        """Narrow each variable to what the least values of the others leave."""
+        """Narrow each variable to the values that the minima of the others leave."""
         bounds = [store.bounds(key) for key in self.keys]  # the hot path of sums of many
         least = self._least(bounds)
         if least > self._slack:
@@ -208,7 +208,7 @@ class Among(Relation):
     """A variable whose value passes a test.
 
     Args:
-        key: The variable; what it may be is a set.
+        key: The variable; its domain is a set.
         allows: The test.
     """
 
@@ -268,10 +268,10 @@ def _keys_of(parts: Iterable[Relation]) -> tuple[Key, ...]:
 
 
 class Solver:
-    """Chooses values of variables that keep relations.
+    """Chooses values of variables that satisfy relations.
 
     Args:
-        domains: What each variable may be; bounds may be infinite if relations make them finite.
+        domains: The domain of each variable; bounds may be infinite if relations make them finite.
         relations: The relations.
     """
 
@@ -292,9 +292,9 @@ class Solver:
             self._start = store.domains
 
     def choose(self, shares: Mapping[Key, float]) -> dict[Key, object] | None:
-        """Return values for places of the variables within what is left for them, between 0 and 1.
+        """Return values for fractions of the remaining domains of the variables, between 0 and 1.
 
-        None if what is left for one of them is nothing.
+        None if a domain becomes empty.
         """
         if self._start is None:
             return None

@@ -40,23 +40,23 @@ def parse(
     allow: Collection[str] = frozenset(),
     with_comments: bool = True,
 ) -> ast.File:
-    """Parse a source text; what is wrong with it goes to the sink.
+    """Parse a source text; report its errors to the sink.
 
     Args:
         source: The text.
         sink: Where diagnostics go.
-        allow: Codes of deviations that are fine in the dialect at hand and not to be reported:
-            OSC111 (block comments), OSC112 (empty blocks), OSC113 (`do:`), OSC114 (empty
-            parentheses), OSC626 (lines that begin between two blocks). `use` as a statement is
-            left to the next stage to judge.
+        allow: Codes of deviations that the dialect accepts and that are not reported: OSC111 (block
+            comments), OSC112 (empty blocks), OSC113 (`do:`), OSC114 (empty parentheses), OSC626
+            (lines that begin between two blocks). `use` as a statement is checked by the next
+            stage.
         with_comments: Whether nodes have their comments.
 
     Returns:
-        The AST of all that could be understood.
+        The AST of the valid parts.
     """
     conflicts = list(merge_conflicts(source))
     for span in conflicts:
-        sink.report("OSC116", span, "a merge is not resolved here", help=_RESOLVE)
+        sink.report("OSC116", span, "a merge conflict is not resolved here", help=_RESOLVE)
     if conflicts:
         return ast.File(span=Span(source, 0, 0), imports=(), statements=())
     # Loaded late: the generated parser is only needed when there is something to parse.

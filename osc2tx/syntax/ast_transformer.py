@@ -28,7 +28,7 @@ BUILDERS = {
     **behaviors.BUILDERS,
     **names.BUILDERS,
 }
-"""What builds each kind of statement, by the class of its context."""
+"""The function that builds each kind of statement, by the class of its context."""
 
 
 class ASTTransformer:
@@ -76,7 +76,7 @@ class ASTTransformer:
         )
 
     def _report_late_import(self, node: ast.Import) -> None:
-        message = "an import stands before all other statements of a file"
+        message = "imports precede all other statements of a file"
         self._builder.report("OSC108", node.span, message, _moved_to_top(node.span))
 
 

@@ -38,12 +38,12 @@ Line = TypeVar("Line", bound=CommentLine)
 
 
 class Between(NamedTuple):
-    """What surrounds the comment lines between two statements.
+    """The surroundings of the comment lines between two statements.
 
     Attributes:
         closed: Columns of the blocks that end here, innermost first.
         column: Column of the statement below.
-        follows: Whether a statement of the same block stands above, or a block that ends here.
+        follows: Whether a statement of the same block, or a block that ends here, is above.
         blank_lines: Number of blank lines above the statement below.
     """
 
@@ -54,7 +54,7 @@ class Between(NamedTuple):
 
 
 class Shared(NamedTuple, Generic[Line]):
-    """The comment lines of a gap by what they belong to.
+    """The comment lines of a gap by their owner.
 
     Attributes:
         ends: Those at the ends of blocks, as `Between.closed`.
@@ -70,7 +70,7 @@ class Shared(NamedTuple, Generic[Line]):
 
 
 def share(lines: Sequence[Line], gap: Between) -> Shared[Line]:
-    """Return what the comment lines of a gap belong to."""
+    """Return the owners of the comment lines of a gap."""
     if not gap.follows:
         return Shared((), [], [], list(lines))
     shared: Shared[Line] = Shared(tuple([] for _ in gap.closed), [], [], [])

@@ -222,7 +222,7 @@ def _misspelt_composition(place: Place) -> Advice | None:
     follows = place.table.text(index - 1) in ("do", ":")
     begins = follows or (word not in t.KEYWORDS and index == place.line)
     if place.kind() == t.NEWLINE and place.kind(1) == t.INDENT and index == end - 1 and begins:
-        block = "a block is block by `serial:`, `parallel:` or `one_of:`; a label stands before it"
+        block = "a block begins with `serial:`, `parallel:` or `one_of:`, behind its label"
         return Advice(f"`{word}` is no composition", block, index)
     if place.kind() == t.NEWLINE and index < end - 1:
         name = place.table.source.text[place.table.starts[place.line] : place.table.ends[end - 1]]
@@ -232,7 +232,7 @@ def _misspelt_composition(place: Place) -> Advice | None:
         help_ = insert(place.table.span(end - 1, end - 1), " with", with_)
         if place.kind(1) != t.INDENT:
             colon = leave_out(place.table.span(end, end), "leave the `:` out")
-            return Advice("nothing stands below the `:` of an invocation", colon, end)
+            return Advice("an invocation has no block, so no `:`", colon, end)
         return Advice("`with` is missing before the `:` of an invocation", help_)
     return None
 

@@ -1,4 +1,4 @@
-"""Mistakes of people who know other languages; see `common_mistakes`."""
+"""Mistakes that come from other languages; see `common_mistakes`."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from osc2tx.syntax import tokens as t
 from osc2tx.syntax.mistake_places import NUMBERS, TYPES, Advice, Place
 
 _CHOICE = "use `wait`, `one_of` or `on … if`, or a conditional expression `a ? b : c`"
-_LOOP = "write the members as often as they shall happen, or wait for `every(…)` in an `on`"
+_LOOP = "repeat the members, or react to `every(…)` with `on`"
 _TYPE = "types are declared with `struct`, `actor` or `enum`"
 _METHOD = "a method is declared in a type, `def name(…) -> type is expression …`"
 
@@ -21,7 +21,7 @@ STATEMENTS: Mapping[str, str] = {
     **dict.fromkeys(("function", "func", "fn"), _METHOD),
     "assert": "a run fails by `on rise(…): emit fail`, values are constrained by `keep(…)`",
     "from": "write `import` and the file in quotes, or the dotted name of a module",
-    "return": "the value of a method stands in its head: `is expression …`",
+    "return": "the value of a method is in its head: `is expression …`",
     "let": "a field is declared `name: type = value`, without `let`",
     "const": "a field is declared `name: type = value`, without `const`",
 }
@@ -38,7 +38,7 @@ COMPOSITIONS: Mapping[str, str] = {
 # Words behind a call, on the same line.
 BEHIND_A_CALL: Mapping[str, str] = {
     "until": "end the line with `with:`, and write `until …` indented below",
-    "for": "how long is an argument: `(duration: 3s)`",
+    "for": "the duration is an argument: `(duration: 3s)`",
     "after": "let that time pass before it: `wait elapsed(3s)`",
     "when": "wait for it on a line before: `wait …`",
     "if": "wait for it on a line before: `wait …`",
@@ -88,12 +88,12 @@ def behind_a_call(place: Place) -> Advice | None:
         return None
     what = f"there is no `{word}` behind a call"
     if word == "until":
-        what = "`until` belongs into a `with:` block"
+        what = "`until` belongs in a `with:` block"
     return Advice(what, _into_the_call(place) or BEHIND_A_CALL[word])
 
 
 def _into_the_call(place: Place) -> Help:
-    """Return how `until …` goes into a block below the call, and `for 3s` into its arguments."""
+    """Return the fix that moves `until …` below the call, and `for 3s` into its arguments."""
     word, table = place.text(), place.table
     end = place.at
     while table.types[end + 1] not in (t.NEWLINE, t.EOF):
@@ -207,7 +207,7 @@ def enum_block(place: Place) -> Advice | None:
     """`enum a:` with a block of names."""
     if place.table.text(place.line) != "enum" or place.kind() != t.NEWLINE:
         return None
-    return Advice("the members of an enum stand in brackets", "write `enum name: [first, second]`")
+    return Advice("the members of an enum are in brackets", "write `enum name: [first, second]`")
 
 
 def range_without_brackets(place: Place) -> Advice | None:
@@ -220,7 +220,7 @@ def range_without_brackets(place: Place) -> Advice | None:
     if place.kind(-1) in NUMBERS and place.kind(1) == t.PHYSICAL:  # one unit for both
         lower += upper.lstrip("0123456789.+-eE")
     range_ = f"[{lower}..{upper}]"
-    return Advice("a range stands in brackets", write(place.span(-1, 1), range_))
+    return Advice("a range is in brackets", write(place.span(-1, 1), range_))
 
 
 def other_arithmetic(place: Place) -> Advice | None:
@@ -276,7 +276,7 @@ def other_strength(place: Place) -> Advice | None:
     word = place.text(-1)
     if word not in ("soft", "weak", "strong"):
         return None
-    default = "write `keep(default …)`: it holds unless a later constraint replaces it"
+    default = "write `keep(default …)`: it applies unless a later constraint replaces it"
     help_ = write(place.span(-1), "default", default)
     return Advice(f"there is no constraint of strength `{word}`", help_, place.at - 1)
 
@@ -308,7 +308,7 @@ def condition_alone(place: Place) -> Advice | None:
     word = place.table.text(place.line)
     if word not in ("wait", "until", "on"):
         return None
-    alone = f"a condition stands alone: `{word} {place.text()} …`; `if` follows an `@event`"
+    alone = f"a condition is used alone: `{word} {place.text()} …`; `if` follows an `@event`"
     help_ = write(place.between(-2), " ", alone)
     return Advice(f"unexpected `if` after `{word}`", help_, place.at - 1)
 
@@ -325,7 +325,7 @@ def namespace_block(place: Place) -> Advice | None:
     """`namespace a:`."""
     if place.kind() != _COLON or place.table.text(place.line) != "namespace":
         return None
-    all_ = "leave out the `:`; it holds for all that follows, up to the next `namespace`"
+    all_ = "omit the `:`; it applies to all that follows, up to the next `namespace`"
     help_ = leave_out(place.span(), all_)
     return Advice("a namespace has no block", help_)
 

@@ -1,4 +1,4 @@
-"""The messages of the token source; each marks what it has reported as damaged."""
+"""The messages of the token source; each marks the reported text as damaged."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _MAX_REPORTS = 100
 _OPERATORS = {"&&": "and", "&": "and", "||": "or"}
 _REPLACEMENTS = {
     "^": "there is no power; multiply: `a * a`",
-    "`": "strings stand in double or single quotes",
+    "`": "strings are enclosed in double or single quotes",
     ";": "a statement ends with its line; leave the semicolon out",
     "{": "blocks are made by `:` and indentation",
     "}": "blocks are made by `:` and indentation",
@@ -27,7 +27,7 @@ class LexicalErrors:
     """Reports lexical mistakes of one source, each once, not more than 100 of a kind."""
 
     def __init__(self, table: TokenTable, sink: DiagnosticSink, *, allow: Collection[str]) -> None:
-        """Report into `sink` what is not among the codes that are fine."""
+        """Report into `sink`, except codes that are accepted."""
         self._table = table
         self._text = table.source.text
         self._sink = sink
@@ -42,7 +42,7 @@ class LexicalErrors:
             self._sink.report(code, Span(self._table.source, start, end), message, help=help_)
 
     def unknown_character(self, start: int) -> int:
-        """Report characters that start no token; return where to go on."""
+        """Report characters that start no token; return where to continue."""
         match = patterns.UNKNOWN_RUN.match(self._text, start)
         end = max(match.end() if match else start + 1, start + 1)
         found = self._text[start:end] if match is None or match[1] is None else match[1]
@@ -74,7 +74,7 @@ class LexicalErrors:
         return following is not None and column_after(following[1]) > column_after(own)
 
     def _without_brace(self, start: int, brace: str) -> Help:
-        """Return how a brace becomes the colon of a block, or goes with its line."""
+        """Return the fix that replaces a brace by the colon of a block, or removes its line."""
         line = self._table.line_start(start)
         rest = self._rest_of_line(start + 1)
         help_ = _REPLACEMENTS[brace]
@@ -109,7 +109,7 @@ class LexicalErrors:
         return self._closed_below(end, quote) if help_ else end
 
     def _closed_below(self, end: int, quote: str) -> int:
-        """Return where a string that goes on in the next line is closed, else `end`."""
+        """Return where a string that continues in the next line is closed, else `end`."""
         below = patterns.NEXT_LINE.match(self._text, end)
         if below is None or below[1].count(quote) % 2 == 0:
             return end
@@ -126,7 +126,7 @@ class LexicalErrors:
             is_operator &= after.isdigit() or after == "("
             help_ = write(Span(self._table.source, start, start + 2), "#")
             if is_operator:
-                divide = "to divide write `/`: of whole numbers it is whole"
+                divide = "to divide write `/`: the quotient of integers is an integer"
                 help_ = write(
                     Span(self._table.source, start, start + 2), "/", divide, is_safe=False
                 )
@@ -173,13 +173,13 @@ class LexicalErrors:
     def nesting_too_deep(self, at: int, limit: int) -> None:
         """Report blocks and brackets that nest beyond the limit."""
         message = f"blocks and brackets nest more than {limit} levels deep"
-        help_ = "the whole declaration is left out; split it up"
+        help_ = "the whole declaration is skipped; split it"
         self._report("OSC105", at, min(at + 1, len(self._text)), message, help_)
 
     def line_too_long(self, start: int, end: int, limit: int) -> None:
         """Report a logical line with too many tokens."""
         message = f"this line has more than {limit:,} words and symbols"
-        help_ = "the whole declaration is left out; split it up"
+        help_ = "the whole declaration is skipped; split it"
         self._report("OSC115", start, min(start + 1, end), message, help_)
 
     def unclosed_bracket(self, token: int) -> None:

@@ -17,10 +17,10 @@ _MAX_DIGITS = 400
 
 
 def string_value(literal: str) -> str:
-    """Return the value of a string literal; escapes mean what they mean in Python.
+    """Return the value of a string literal; escapes are those of Python.
 
-    A backslash before any other character stands for that character (the standard calls each such
-    pair an escape sequence without naming its value).
+    A backslash before any other character denotes that character (the standard calls each such pair
+    an escape sequence without naming its value).
     """
     quotes = 3 if literal.startswith(('"""', "'''")) and len(literal) >= 6 else 1
     closed = len(literal) >= 2 * quotes and literal.endswith(literal[:quotes])

@@ -1,4 +1,4 @@
-"""Finds what an unresolved merge leaves in a text: two versions between markers of git."""
+"""Finds unresolved merge conflicts in a text: two versions between markers of git."""
 
 from __future__ import annotations
 

@@ -16,12 +16,12 @@ TYPES = {t.KEYWORDS[word] for word in ("struct", "actor", "scenario", "action")}
 
 
 class Advice(NamedTuple):
-    """What to say.
+    """The content of a diagnostic.
 
     Attributes:
-        message: What is wrong.
-        help: What to do about it.
-        token: Index of the token to point at, when it is not the one that does not fit.
+        message: The message.
+        help: The remedy.
+        token: Index of the token to point at, if it is not the unexpected one.
     """
 
     message: str

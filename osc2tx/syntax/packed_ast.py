@@ -2,7 +2,7 @@
 
 The data consist of tuples, lists, strings and numbers only, one column for each field of each
 class of node. Columns are filled in by loops that run in C, so unpacking takes a fraction of the
-time that parsing takes. It executes nothing that the data say.
+time that parsing takes. The data cannot execute code.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ Column = tuple[str, Any]
 Group = tuple[str, int, list[Column]]  # name of the class, number of nodes, columns of its fields
 Packed = list[Group]
 
-NONE = -1  # the index that stands for `None`
+NONE = -1  # the index of `None`
 
 
 class PackingError(ValueError):
@@ -84,7 +84,7 @@ def unpack(data: Packed, source: SourceFile) -> ast.File:
     """Return the AST of a text from its data.
 
     Raises:
-        PackingError: If the data are not what `pack` returns; not all that is wrong is noticed.
+        PackingError: If the data are not what `pack` returns; not every defect is detected.
     """
     try:
         return _unpack(data, source)

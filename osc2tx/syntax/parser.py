@@ -2,7 +2,7 @@
 
 `StatementRecovery` keeps every mistake inside its statement: the exception rises to the nearest
 rule `statement`, the rest of the line is skipped, the block below it is parsed as usual, and
-parsing goes on with the next statement.
+parsing continues with the next statement.
 """
 
 from __future__ import annotations
@@ -32,10 +32,10 @@ class StatementRecovery:
         self._starts = statement_starts()
 
     def sync(self, parser: Any) -> None:
-        """Before each statement of a block: pass over lines that begin no statement.
+        """Before each statement of a block: skip lines that begin no statement.
 
-        A block stands among the statements when the line above it lost all its tokens to a lexical
-        mistake; it is read like any other, so that its DEDENT ends nothing else.
+        A block is among the statements when a lexical error removed all tokens of the line above
+        it; it is read like any other, so that its DEDENT ends nothing else.
         """
         stream = self._stream
         while (kind := stream.types[stream.index]) not in self._starts:
@@ -48,7 +48,7 @@ class StatementRecovery:
             self._skip_statement(parser)
 
     def recoverInline(self, parser: Any) -> None:
-        """Give up at once; no token is dropped or invented."""
+        """Abort immediately; no token is removed or inserted."""
         raise RecognitionException
 
     def reportError(self, parser: Any, error: RecognitionException) -> None:

@@ -1,9 +1,9 @@
-"""What the generated parser runs on: as much of the ANTLR runtime as an LL(1) parser needs.
+"""The runtime of the generated parser: the part of the ANTLR runtime that an LL(1) parser needs.
 
 `make parser` makes `_antlr` import this module in place of `antlr4`, whose names it therefore has,
 and removes the calls that have no effect without listeners, token objects and prediction. Contexts
-hold token indexes in place of tokens. antlr4 itself is loaded only for a message that lists the
-tokens that would have fitted.
+hold token indexes instead of tokens. antlr4 itself is loaded only for a message that lists the
+expected tokens.
 """
 
 from __future__ import annotations
@@ -41,13 +41,13 @@ class ParserRuleContext:
         children: Contexts and token indexes.
         start: Index of its first token.
         stop: Index of its last token.
-        exception: What did not fit in it.
+        exception: The syntax error in it.
     """
 
     __slots__ = ("children", "exception", "invokingState", "parentCtx", "start", "stop")
 
     def __init__(self, parent: ParserRuleContext | None, invoking_state: int) -> None:
-        """Begin the node; `Parser.enterRule` says where."""
+        """Begin the node; `Parser.enterRule` sets its position."""
         self.parentCtx = parent
         self.invokingState = invoking_state
         self.exception: RecognitionException | None = None
@@ -65,7 +65,7 @@ class Parser:
         self.state = -1
 
     def enterRule(self, context: Any, state: int, rule: int) -> None:
-        """Put a context below the current one, and go on in it."""
+        """Add a context below the current one, and make it the current one."""
         self.state = state
         context.start = self._input.index
         context.children = []
@@ -75,13 +75,13 @@ class Parser:
         self._ctx = context
 
     def recover(self, context: Any, error: RecognitionException) -> None:
-        """Report what does not fit in a rule, and go on behind it or in the rule that called it."""
+        """Report a mismatch in a rule, and continue behind it or in the calling rule."""
         context.exception = error
         self._errHandler.reportError(self, error)
         self._errHandler.recover(self, error)
 
     def exitRule(self) -> None:
-        """Go on in the context above the current one."""
+        """Make the context above the current one."""
         context = self._ctx
         context.stop = self._input.index - 1
         self.state = context.invokingState

@@ -70,11 +70,11 @@ TOKEN = re.compile(
     re.VERBOSE | re.DOTALL,
 )
 
-# What may stand before the first token of a line: blanks, then a comment or nothing up to the end.
+# The text before the first token of a line: blanks, then a comment or nothing up to the end.
 LINE_HEAD = re.compile(r"([ \t\f]*+)(?:(\#[^\r\n]*+)?(\r\n|\r|\n|\Z))?")
 LINE_REST = re.compile(r"[^\r\n]*+")
 NEXT_LINE = re.compile(r"(?:\r\n|\r|\n)([^\r\n]*+)")
-# Where scanning goes on after nesting that was too deep: a line that is not indented.
+# Where scanning continues after nesting that is too deep: a line that is not indented.
 UNINDENTED_LINE = re.compile(r"[\r\n](?=[^\s#)\]])")
-# Mistyped operators whole; of what has no meaning, as many as stand in a row.
+# Mistyped operators as a whole; sequences of characters without meaning.
 UNKNOWN_RUN = re.compile(r"[&|]++|[;{}]|([^\w\s\"'#])\1*+")

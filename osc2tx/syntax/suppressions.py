@@ -12,7 +12,7 @@ from osc2tx.diagnostics.suppressions import Suppression
 if TYPE_CHECKING:
     from osc2tx.syntax.tokens import TokenTable
 
-# The reason goes up to the end of the line.
+# The reason extends to the end of the line.
 _COMMENT = re.compile(r"#![ \t]*allow(?![\w-])(?P<codes>[^:\r\n]*)[^\r\n]*")
 _NAME = re.compile(r"[^\s,](?:[^,]*[^\s,])?")
 
@@ -44,7 +44,7 @@ def find_suppressions(source: SourceFile) -> tuple[Suppression, ...]:
 
 
 class _Comments:
-    """Where comments stand among the tokens."""
+    """The positions of comments among the tokens."""
 
     def __init__(self, table: TokenTable) -> None:
         from osc2tx.syntax import tokens as t

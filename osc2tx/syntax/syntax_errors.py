@@ -106,7 +106,7 @@ def _name(kind: int) -> str:
 
 
 def describe_token(table: TokenTable, index: int) -> str:
-    """Say in words of the language what stands at a token."""
+    """Describe a token in terms of the language."""
     kind = table.types[index]
     if kind in t.KEYWORD_TYPES:
         return f"the reserved word `{table.text(index)}`"

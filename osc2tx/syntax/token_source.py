@@ -47,7 +47,7 @@ class _TooMuch(Exception):
 
 
 class TokenSource:
-    """Scans one source text into a `TokenTable`; never fails, whatever the text."""
+    """Scans one source text into a `TokenTable`; never fails."""
 
     def __init__(
         self, source: SourceFile, sink: DiagnosticSink, *, allow: Collection[str] = frozenset()
@@ -200,7 +200,7 @@ class TokenSource:
         return len(text)
 
     def _scan_rare(self, kind: int, start: int, end: int) -> int:
-        """Comments, joined lines and mistakes; return where to go on."""
+        """Comments, joined lines and mistakes; return where to continue."""
         if kind == patterns.COMMENT:
             self._add_comment(start, end, alone=self._is_first_on_line(start))
         elif kind == patterns.FOREIGN_COMMENT:
@@ -280,7 +280,7 @@ class TokenSource:
             raise _TooMuch
 
     def _drop_statement(self) -> int:
-        """Forget the file-level statement that is too much; return where the next begins."""
+        """Drop the file-level statement that is too long; return where the next one begins."""
         tokens, comments = self._statement_start
         table = self.table
         for column in (table.types, table.starts, table.ends):

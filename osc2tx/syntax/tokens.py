@@ -34,15 +34,15 @@ LITERALS = frozenset({INTEGER, FLOAT, PHYSICAL, STRING})
 
 
 class Comment(NamedTuple):
-    """A comment and where it stands among the tokens.
+    """A comment and its position among the tokens.
 
     Attributes:
         before: Index of the first token after it.
-        line: Index of the first token of the logical line it stands in; `None` between lines.
+        line: Index of the first token of its logical line; `None` between lines.
         alone: Whether nothing precedes it on its physical line.
-        column: Its column, from 0, when it stands alone.
-        blank_lines: Number of blank lines above it, when it stands between lines.
-        text: What follows the `#`, without one leading and all trailing blanks.
+        column: Its column, from 0, when it is alone.
+        blank_lines: Number of blank lines above it, when it is between lines.
+        text: The text after `#`, without one leading and all trailing blanks.
     """
 
     before: int
@@ -55,7 +55,7 @@ class Comment(NamedTuple):
 
 @dataclass(slots=True, eq=False)
 class TokenTable:
-    """All tokens of a source, the last of type `EOF`; comments and layout stand apart.
+    """All tokens of a source, the last of type `EOF`; comments and layout are separate.
 
     Attributes:
         source: The text.
@@ -92,11 +92,11 @@ class TokenTable:
         return offset - self.source.position(offset)[1] + 1
 
     def indentation(self, offset: int) -> int:
-        """Return the column of what begins at an offset, the first thing on its line."""
+        """Return the column of the text that begins at an offset, the first one on its line."""
         return column_after(self.source.text[self.line_start(offset) : offset])
 
     def below(self, offset: int) -> str:
-        """Return the blanks before a line that stands below the line of an offset, in its block."""
+        """Return the indentation of a line below the line of an offset, in its block."""
         line = self.source.text[self.line_start(offset) : offset]
         return " " * (column_after(line[: len(line) - len(line.lstrip())]) + 4)
 

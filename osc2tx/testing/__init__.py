@@ -1,4 +1,4 @@
-"""Tests of scenarios, with pytest: are the generated files fresh, what does a run measure?
+"""Tests of scenarios, with pytest: freshness of generated files, measures of runs.
 
     from osc2tx.testing import assert_build_fresh, run_scenario
 
@@ -53,7 +53,7 @@ _updates = False  # whether pytest was started with it
 
 def pytest_addoption(parser: pytest.Parser, pluginmanager: pytest.PytestPluginManager) -> None:
     """Add the option, and those of scenarios as tests; called by pytest."""
-    help = "let assert_build_fresh write what differs instead of failing"
+    help = "let assert_build_fresh write changed files instead of failing"
     parser.getgroup("osc2tx").addoption(_OPTION, action="store_true", help=help)
     from osc2tx.testing import scenario_tests
 
@@ -77,7 +77,7 @@ def assert_build_fresh(
     Args:
         sources: Files and folders of scenarios.
         generated: Folder of the outputs.
-        update: Write what differs instead of failing, as under `pytest --update-generated`.
+        update: Write changed files instead of failing, as under `pytest --update-generated`.
 
     Raises:
         AssertionError: If a source has errors, or an output is stale, missing, edited by hand or
@@ -121,14 +121,14 @@ def _difference(path: Path, wanted: str | None) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Run:
-    """A run of a scenario, with the questions that tests ask.
+    """A run of a scenario, with queries for tests.
 
     Attributes:
         status: `success`, `failure` or `timeout`.
         reason: Why it is not `success`.
         time: Simulated seconds.
         lines: The trace.
-        warnings: Warnings of a run that continues all the same.
+        warnings: Warnings of the run.
     """
 
     status: str
@@ -184,7 +184,7 @@ def run_scenario(path: str | Path, *, scenario: str | None = None, **settings: A
     """Run a scenario file, or a module made from one, in the embedded world.
 
     Args:
-        path: The file; settings of `osc2tx.toml` count as for `osc2tx run`.
+        path: The file; settings of `osc2tx.toml` apply as for `osc2tx run`.
         scenario: Its name; the last one of the file if left out.
         **settings: Fields of `osc2tx_runtime.RunSettings`, as `seed=7` or `set={"gap": 12.0}`.
 

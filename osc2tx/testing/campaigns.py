@@ -20,7 +20,7 @@ class CampaignRow:
     """The outcome of one row.
 
     Attributes:
-        number: Of the row.
+        number: Number of the row.
         status: `success`, `failure`, `timeout`, `error` or `crashed`.
         reason: Why it is not `success`.
         time: Simulated seconds.
@@ -53,13 +53,13 @@ class CampaignRow:
 
 @dataclass(frozen=True, slots=True)
 class Campaign:
-    """The outcome of a campaign, with the questions that tests ask.
+    """The outcome of a campaign, with queries for tests.
 
     Attributes:
         rows: By number.
         left_out: How many points of the sampler break a constraint.
         coverage: Coverage items by name; see `Item.grade` and `Item.holes()`.
-        digest: SHA-256 of all that does not depend on the machine.
+        digest: SHA-256 of all results that do not depend on the machine.
     """
 
     rows: tuple[CampaignRow, ...]
@@ -107,18 +107,18 @@ def run_campaign(
     """Run a scenario many times, as `osc2tx campaign run` does.
 
     Args:
-        path: The file; settings of `osc2tx.toml` count as for `osc2tx run`.
-        samples: How many rows; `grid`, `pairwise` and `table:FILE` end by themselves.
-        sampler: Which values rows have; `random` without, and without a search.
-        search: The KPI whose worst value is looked for.
-        search_batch: How many rows a search chooses together.
-        scenario: Which one of the file.
+        path: The file; settings of `osc2tx.toml` apply as for `osc2tx run`.
+        samples: Number of rows; `grid`, `pairwise` and `table:FILE` end by themselves.
+        sampler: The sampler; `random` by default without a search.
+        search: The KPI whose worst value is searched.
+        search_batch: Number of rows that a search selects together.
+        scenario: The scenario of the file.
         levels: Values of a range for grid and pairwise.
         engine: Where rows are run: `local`, or `dask://HOST:PORT`.
-        workers: Number of processes that run rows; one if left out. A cluster has its own.
-        kpi: Measures to take; all of osc2tx if left out.
+        workers: Number of processes that run rows, by default one. A cluster has its own.
+        kpi: Measures to take, by default all of osc2tx.
         fail_if: A further condition of failure, `min_ttc<1.5`.
-        store: Holds the results, and possibly earlier ones; nothing is stored if left out.
+        store: File of the results, and possibly earlier ones; by default nothing is stored.
         **options: Options of `osc2tx run`: `seed=7`, `max_time=40`, `set=["gap=12"]`.
 
     Raises:
@@ -163,7 +163,7 @@ def plan_of(
     fail_if: Sequence[str],
     options: Mapping[str, Any],
 ) -> tuple[Plan, Mapping[str, Sequence[str]]]:
-    """Compile a scenario; return what its rows have in common, and the options as written."""
+    """Compile a scenario; return the common data of its rows, and the options as written."""
     from osc2tx.building.jobs import compile_all
     from osc2tx.cli.run import merge_texts, settings_from
     from osc2tx.cli.written_modules import written_files

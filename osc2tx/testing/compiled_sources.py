@@ -1,4 +1,4 @@
-"""Scenario files of a test session, compiled; what a build knows is not compiled again."""
+"""Compiled scenario files of a test session; results of builds are reused."""
 
 from __future__ import annotations
 
@@ -117,7 +117,7 @@ class CompiledSources:
         self._results |= {real_path(result.job.path): result for result in results}
 
     def _compile(self, jobs: Sequence[Job], workers: int) -> list[FileResult]:
-        """Return results that have a module; XML is only made for those who ask for it."""
+        """Return results that have a module; XML is made on request."""
         asked = {job: self._with_module(job) for job in jobs}
         known: dict[Job, FileResult] = {}
         for job, alone in asked.items():

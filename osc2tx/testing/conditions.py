@@ -31,7 +31,7 @@ class ValueCondition:
     Attributes:
         name: Path of the value.
         comparison: `==`, `!=`, `<`, `<=`, `>` or `>=`.
-        value: What it is compared with, as written.
+        value: The other value, as written.
     """
 
     name: str

@@ -21,7 +21,7 @@ TOGETHER = ("engine", "workers", "search", "search_batch", "store")
 
 
 class MarkedRows:
-    """What tests ask for; what was compiled and run last is kept."""
+    """The requests of tests; the last compilation and run are kept."""
 
     def __init__(self) -> None:
         self._key: object = None
@@ -29,13 +29,13 @@ class MarkedRows:
         self._together: Sequence[CampaignRow] | None = None
 
     def close(self) -> None:
-        """Forget what was compiled and run."""
+        """Drop the kept compilation and run."""
         if self._planned is not None:
             self._planned.close()
         self._key = self._planned = self._together = None
 
     def indices(self, mark: pytest.Mark) -> range:
-        """Return one index for each row; compiles only if the mark does not say how many."""
+        """Return one index for each row; compiles only if the mark does not state the number."""
         samples = mark.kwargs.get("samples")
         return range(self._plan(mark).count() if samples is None else samples)
 

@@ -25,7 +25,7 @@ def pytest_configure(config: pytest.Config) -> None:
 
 
 def pytest_unconfigure(config: pytest.Config) -> None:
-    """Forget what was compiled."""
+    """Drop the compilations."""
     if _ROWS in config.stash:
         config.stash[_ROWS].close()
 
@@ -46,5 +46,5 @@ def row(request: pytest.FixtureRequest) -> CampaignRow:
     """Run a row of the campaign that a test is marked with."""
     mark = request.node.get_closest_marker("campaign")
     found: CampaignRow = request.config.stash[_ROWS].run(mark, request.param)
-    request.node.add_report_section("setup", "the same row again", found.repeat)
+    request.node.add_report_section("setup", "the same row", found.repeat)
     return found

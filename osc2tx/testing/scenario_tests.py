@@ -70,7 +70,7 @@ def pytest_configure(config: pytest.Config) -> None:
 
 
 def pytest_sessionstart(session: pytest.Session) -> None:
-    """Compile what the session will collect, before processes of pytest-xdist do; by pytest."""
+    """Compile the files of the session before processes of pytest-xdist do; called by pytest."""
     config = session.config
     if _is_worker(config):
         return
@@ -176,16 +176,16 @@ class ScenarioItem(pytest.Item):
     """A run of a scenario, with the settings of its file.
 
     Attributes:
-        entry: What is known of the scenario; `None` for a file with errors.
+        entry: The data of the scenario; `None` for a file with errors.
         funcargs: Values of fixtures, of which it has none; other plugins ask every item for them.
     """
 
     def __init__(self, *, entry: ScenarioEntry | None, verdict: str, **more: Any) -> None:
-        """Take the scenario.
+        """Store the scenario.
 
         Args:
-            entry: What is known of it.
-            verdict: What its run is to end with.
+            entry: Its data.
+            verdict: The expected verdict.
             **more: As of `pytest.Item`.
         """
         super().__init__(**more)
@@ -211,7 +211,7 @@ class ScenarioItem(pytest.Item):
             raise UnexpectedVerdict(f"{expected}{text}")
 
     def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: Any = None) -> Any:
-        """Return what a failure says."""
+        """Return the text of a failure."""
         if isinstance(excinfo.value, UnexpectedVerdict):
             return str(excinfo.value)
         return super().repr_failure(excinfo, style)
@@ -221,7 +221,7 @@ class ScenarioItem(pytest.Item):
         return self.path, None, self.name
 
     def _run(self) -> tuple[str, str, str]:
-        """Return the verdict, the reason for it in one line, and all that there is to say."""
+        """Return the verdict, its reason in one line, and the full text."""
         from osc2tx.cli.run import merge_texts, settings_from
         from osc2tx_runtime import ScenarioError, run_scenario
         from osc2tx_runtime.errors import SettingsError, coded
@@ -254,7 +254,7 @@ class ScenarioItem(pytest.Item):
         return result.status, result.reason, f"{told}\n{again}"
 
     def _trace(self) -> tuple[str, ...]:
-        """Return where the trace goes: as its source lies, one for each scenario."""
+        """Return the path of the trace: that of its source, one for each scenario."""
         from osc2tx.support.paths import file_stem
 
         folder = self.config.getoption("osc_traces")
@@ -297,7 +297,7 @@ def _conditions(config: pytest.Config) -> list[ValueCondition]:
 
 
 def _is_worker(config: pytest.Config) -> bool:
-    """Whether this is a process of pytest-xdist, which runs what another one chooses."""
+    """Whether this is a worker of pytest-xdist, whose tests another process selects."""
     return hasattr(config, "workerinput")
 
 

@@ -1,12 +1,12 @@
 """OpenSCENARIO XML as a model: elements that are written, read, checked and played.
 
-- `schema`: the table of what each version has, and what units and defaults count
+- `schema`: the table of the parts of each version, with units and defaults
 - `elements`: a class for each element, made from the table; `element` is their base
 - `writer`: elements to text; `reader`: text to elements with their places
-- `checking`: what in a document a version does not allow
-- `comparison`: whether two documents say the same
-- `profiles`: what the tools support that read documents
-- `expressions`: numbers that remember how open parameters give them
+- `checking`: parts of a document that a version does not allow
+- `comparison`: whether two documents have the same meaning
+- `profiles`: the features of the tools that read documents
+- `expressions`: numbers with their expressions over open parameters
 """
 
 from osc2tx.xosc.element import Element, Place, Unknown

@@ -1,7 +1,7 @@
 """Values of attributes: numbers, parameters, and arithmetic over these in `${…}`.
 
-An expression is computed here by its grammar; it never becomes code. Truth values (`and`, `or`,
-`not`) are not among what is computed.
+An expression is computed here by its grammar; it never becomes code. Booleans (`and`, `or`, `not`)
+are not supported.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ _FUNCTIONS: Mapping[str, tuple[int, Callable[..., float]]] = {
     "sqrt": (1, math.sqrt),
     "tan": (1, math.tan),
 }
-"""Number of operands, and what is computed from them; no version has those of angles, tools do."""
+"""Number of operands, and the function of them; those of angles are in tools, not in a version."""
 
 CONSTANTS: Mapping[str, float] = {"pi": math.pi}
 """Names that no version has, and that tools and libraries take for numbers."""
@@ -45,7 +45,7 @@ _PART = re.compile(r"\$?[\w .:]+")  # of texts that are joined
 
 
 def evaluated(text: str, shown: Shown) -> float | None:
-    """Return the number that an attribute says for values of parameters; `None` if it is none."""
+    """Return the number of an attribute for values of parameters; `None` if it is not a number."""
     try:
         if text.startswith("${") and text.endswith("}"):
             return float(_Numbers(text[2:-1], shown).run())
@@ -145,7 +145,7 @@ class _Evaluation(Generic[N]):
         self._shown: Mapping[str, N] = shown
 
     def _literal(self, token: str) -> N:
-        """Return what a number stands for."""
+        """Return the value of a number."""
         raise NotImplementedError
 
     def _remainder(self, value: N, other: N) -> N:
@@ -237,7 +237,7 @@ class _Numbers(_Evaluation[float]):
 
 
 class _Ranges(_Evaluation[Range]):
-    """What osc2tx writes: sums, products and quotients."""
+    """The operators that osc2tx writes: sums, products and quotients."""
 
     def _literal(self, token: str) -> Range:
         return Range(float(token), float(token))

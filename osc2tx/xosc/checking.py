@@ -27,12 +27,12 @@ from osc2tx_shared.classes import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Problem:
-    """Something in a document.
+    """A finding in a document.
 
     Attributes:
-        reason: What no document of the version has, or a sentence on what is discouraged.
+        reason: The part that the version does not have, or a sentence on a deprecated one.
         place: Where its element begins; `None`: it was not read from a file.
-        is_warning: The document is valid all the same.
+        is_warning: The document is valid.
     """
 
     reason: str
@@ -41,9 +41,9 @@ class Problem:
 
 
 def version_of(root: Element) -> XmlVersion:
-    """Return the version that a document says it has; the newest known one if that is beyond it.
+    """Return the version that a document states; the newest known one if that is newer.
 
-    One that says none is taken for the first.
+    Without a statement it is the first version.
     """
     header = next((child for child in root.children if child.tag == "FileHeader"), None)
     major, minor = (_whole(header, name) for name in ("revMajor", "revMinor"))
@@ -58,7 +58,7 @@ def _whole(header: Element | None, name: str) -> int:
 
 
 def problems(root: Element, version: XmlVersion) -> Iterator[Problem]:
-    """Yield what is wrong with a document, in its order."""
+    """Yield the defects of a document, in its order."""
     part = element_type(ROOT_TYPE).children.get(root.tag)
     if part is None:
         yield Problem(f"<{root.tag}> below the document", root.place)
@@ -67,7 +67,7 @@ def problems(root: Element, version: XmlVersion) -> Iterator[Problem]:
 
 
 def problems_of_entry(entry: Element, version: XmlVersion) -> Iterator[Problem]:
-    """Yield what is wrong with an entry of a catalog."""
+    """Yield the defects of an entry of a catalog."""
     part = element_type("Catalog").children.get(entry.tag)
     if part is None:
         yield Problem(f"<{entry.tag}> in a catalog", entry.place)

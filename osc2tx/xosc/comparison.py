@@ -1,8 +1,7 @@
-"""Whether two documents say the same once parameters have their values.
+"""Whether two documents have the same meaning for given values of parameters.
 
-`Performance` states what a vehicle can do at most, so it need not follow the parameters: constants
-cover all their values. A reader sees one number, and no formula has to be computed before the
-vehicle exists.
+`Performance` states limits of a vehicle, so it need not follow the parameters: constants cover all
+their values. A reader sees one number, and no formula has to be computed before the vehicle exists.
 """
 
 from __future__ import annotations
@@ -17,11 +16,11 @@ from osc2tx.xosc.arithmetic import Range, Shown, evaluated, range_of
 from osc2tx.xosc.element import Element, text_of
 
 SAID_BESIDE = frozenset({"FileHeader", "ParameterDeclarations"})
-"""Parts of a document that do not say what happens."""
+"""Parts of a document without effect on a run."""
 
 
 def story_of(document: Element) -> Element:
-    """Return a document with the parts that say what happens."""
+    """Return a document with the parts that have an effect on a run."""
     return document.with_children(*(p for p in document.children if p.tag not in SAID_BESIDE))
 
 
@@ -38,7 +37,7 @@ class Place(NamedTuple):
 
 
 class _OtherShape(Exception):
-    """Two documents have other elements, or differ in what no parameter can stand for."""
+    """Two documents have different elements, or differ in a part that cannot be a parameter."""
 
 
 def differences(document: Element, other: Element, shown: Shown) -> frozenset[Place] | None:
@@ -130,8 +129,8 @@ def _with_texts(node: Element, texts: Mapping[Place, str], path: tuple[int, ...]
 def with_covering_limits(document: Element, ranges: Mapping[str, Range]) -> Element:
     """Return a document in which limits of vehicles are the most that their formulas can be.
 
-    A formula that may have no value within the ranges has that of the middle; what is asked for
-    other values is found by comparing documents for them.
+    A formula that may have no value within the ranges has that of the middle; the requests for
+    other values are found by comparing documents for them.
     """
     middles = {name: 0.5 * (found.low + found.high) for name, found in ranges.items()}
     if isinstance(document, xml.Performance):

@@ -1,8 +1,8 @@
-"""Elements of a document: immutable trees of texts with typed attributes.
+"""Elements of a document: immutable trees of strings with typed attributes.
 
 An element keeps the texts of its attributes, so that a document is written as it was read, and
 `$name` and `${expression}` stay what they are. `node.get("value")` is such a text; `node.value` is
-its value: a number, a truth value or a name, the default of the standard where it is left out.
+its value: a number, a Boolean or a name, the default of the standard if it is omitted.
 """
 
 from __future__ import annotations
@@ -38,13 +38,13 @@ class Unwritable(Exception):
     """
 
     def __init__(self, reason: str) -> None:
-        """Take what there is to say."""
+        """Store the details."""
         super().__init__(reason)
         self.reason = reason
 
 
 class Unresolved(Exception):
-    """An attribute was asked for its value, and has none: it is an expression, or nonsense.
+    """An attribute has no value: it is an expression, or invalid.
 
     Attributes:
         reason: A sentence without full stop.
@@ -52,21 +52,21 @@ class Unresolved(Exception):
     """
 
     def __init__(self, reason: str, place: Place | None) -> None:
-        """Take what there is to say."""
+        """Store the details."""
         super().__init__(reason if place is None else f"{place}: {reason}")
         self.reason = reason
         self.place = place
 
 
 class Element:
-    """An element; each tag has a class of its own in `elements`.
+    """An element; each tag has a class in `elements`.
 
     Attributes:
         attributes: Their texts, in any order.
         children: In any order where the schema gives one; elements of one tag keep theirs.
-        text: What stands in it.
-        place: Where it stands; it makes no difference between elements.
-        notes: What gives its numbers, for readers; that makes no difference either.
+        text: Its text.
+        place: Its position; it is ignored in comparisons.
+        notes: The origins of its numbers, for readers; they are ignored as well.
     """
 
     __slots__ = ("attributes", "children", "notes", "place", "text")
@@ -79,7 +79,7 @@ class Element:
     def __init__(
         self, *children: Element | None, text: str | None = None, **attributes: Value | None
     ) -> None:
-        """Take what it consists of; what is `None` is left out.
+        """Store its parts; `None` is skipped.
 
         An underscore at the end of a name is dropped: `from_` is the attribute `from`.
 
@@ -120,7 +120,7 @@ class Element:
         place: Place | None = None,
         notes: tuple[str, ...] = (),
     ) -> Self:
-        """Return an element with texts as they stand in a document."""
+        """Return an element with the strings of a document."""
         made = cls.__new__(cls)
         made._fill(attributes, children, text, place, notes)
         return made
@@ -132,7 +132,7 @@ class Element:
 
     def get(self, attribute: str) -> str | None:
         """Return the text of an attribute."""
-        for name, text in self.attributes:  # a loop: players ask for millions of them
+        for name, text in self.attributes:  # a loop: players read millions of them
             if name == attribute:
                 return text
         return None
@@ -150,7 +150,7 @@ class Element:
 
     @property
     def inner(self) -> Element:
-        """The first thing in it: many elements are there to hold one.
+        """Its first child: many elements have exactly one.
 
         Raises:
             Unresolved: There is none.
@@ -237,7 +237,7 @@ _SETTERS: tuple[Callable[[Element, object], None], ...] = tuple(
 
 
 class Unknown(Element):
-    """An element that no version has; each tag has a class of its own."""
+    """An element that no version has; each tag has a class."""
 
     __slots__ = ()
 
@@ -251,7 +251,7 @@ class Attribute:
         self._part = part
 
     def __get__(self, node: Element | None, owner: type[Element]) -> Any:
-        """Return what the attribute says; its default where it is left out, else `None`."""
+        """Return the value of the attribute; its default if it is omitted, otherwise `None`."""
         if node is None:
             return self
         text = node.get(self._name)

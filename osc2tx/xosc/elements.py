@@ -1,8 +1,8 @@
-"""A class for each element of OpenSCENARIO XML, made from the table when it is first asked for.
+"""A class for each element of OpenSCENARIO XML, made from the table on first access.
 
 Type checkers and editors see them in `elements.pyi`, which `tools/make_xosc_elements.py` writes:
 which children an element takes, and its attributes with units, versions and defaults. There
-`EventPart` is the type of what may stand in an `Event`; here it is any element.
+`EventPart` is the type of the children of an `Event`; here it is any element.
 """
 
 import keyword
@@ -34,7 +34,7 @@ _CLASSES: dict[str, type[Base]] = {}
 
 
 def __getattr__(name: str) -> type[Base]:
-    """Make a class when a module first asks for it; from then on it is an attribute."""
+    """Make a class on first access; then it is an attribute."""
     tag = name.removesuffix("_")  # as of `None_`, which is a word of Python
     if tag in tags():
         found = class_of(tag)

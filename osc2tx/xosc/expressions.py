@@ -1,11 +1,11 @@
 """Symbolic numbers: arithmetic on open parameters as expressions of the document.
 
-A `Symbol` is a number, the nominal value of an open parameter or what is computed from it, that
-remembers how: sums, differences, products and quotients of symbols are symbols. Whatever else is
-done with one sees the nominal value. Whether a document made so is right for the other values too
-is not known before `parameters` has compared it with documents made for them.
+A `Symbol` is a number, the nominal value of an open parameter or of an expression over it, with
+this expression: sums, differences, products and quotients of symbols are symbols. All other
+operations use the nominal value. Whether a document made so is right for the other values too is
+not known before `parameters` has compared it with documents made for them.
 
-A symbol is a sum of factors with coefficients: constants meet, and what cancels is gone.
+A symbol is a sum of factors with coefficients: constants are combined, and zero terms vanish.
 """
 
 from __future__ import annotations
@@ -19,18 +19,18 @@ from osc2tx.diagnostics import InternalCompilerError
 from osc2tx.xosc.numbers import number_text
 
 LONGEST = 160
-"""Characters of an expression; what is longer is no help to a reader."""
+"""Maximum length of an expression that a reader understands."""
 
 NOISE = 1e-12
 """Share of two coefficients that their difference may have by rounding alone."""
 
 
 class Sum(NamedTuple):
-    """Coefficients of factors, in the order in which they came, and a constant.
+    """Coefficients of factors, in order of occurrence, and a constant.
 
     Attributes:
         terms: Coefficients by the text of the factor: a parameter, a product or a quotient.
-        constant: What is added.
+        constant: The constant term.
     """
 
     terms: Mapping[str, float]
@@ -38,7 +38,7 @@ class Sum(NamedTuple):
 
     @property
     def text(self) -> str:
-        """The sum as an expression; equal coefficients stand outside brackets."""
+        """The sum as an expression; equal coefficients are factored out."""
         sizes = {abs(each) for each in self.terms.values()}
         if len(self.terms) > 1 and len(sizes) == 1 and sizes != {1.0}:
             (size,) = sizes
@@ -64,7 +64,7 @@ class Sum(NamedTuple):
 
     @property
     def divisor(self) -> str:
-        """The sum as what is divided by."""
+        """The sum as a divisor."""
         text = self.text
         return text if _is_name(text) else f"({text})"
 
@@ -77,13 +77,13 @@ class Sum(NamedTuple):
         return Sum(terms, _rounded(self.constant, sign * other.constant))
 
     def times(self, scale: float) -> Sum:
-        """Return the sum of so many of it."""
+        """Return a multiple of the sum."""
         if not scale:
             return Sum({}, 0.0)
         return Sum({f: scale * each for f, each in self.terms.items()}, scale * self.constant)
 
     def over(self, other: Sum) -> float | None:
-        """Return how many times another sum it is, whatever the parameters; `None` if it is not."""
+        """Return the constant ratio to another sum; `None` if there is none."""
         if self.terms.keys() != other.terms.keys():
             return None
         shares = [each / other.terms[factor] for factor, each in self.terms.items()]
@@ -125,7 +125,7 @@ class Symbol(float):
     has_expressions: bool
 
     def __new__(cls, value: float, of: str | Sum, *, has_expressions: bool = True) -> Symbol:
-        """Take the nominal value, and the parameter (`$name`) or what is computed."""
+        """Store the nominal value, and the parameter (`$name`) or expression."""
         made = super().__new__(cls, value)
         made.sum = Sum({of: 1.0}, 0.0) if isinstance(of, str) else of
         made.has_expressions = has_expressions
@@ -224,7 +224,7 @@ def _sum_of(value: float) -> Sum:
 
 
 def _combined(left: Sum, sign: str, right: Sum) -> Sum | float:
-    """Return what an operation gives; a number if it is the same for all values of parameters."""
+    """Return the result of an operation; a number if it does not depend on parameters."""
     match sign:
         case "+" | "-":
             return left.plus(right, 1.0 if sign == "+" else -1.0)

@@ -7,7 +7,7 @@ LONGEST_NOTE = 60
 
 
 class Noted(float):
-    """A number with what gives it, for readers of the document; results of arithmetic are plain.
+    """A number with its origin, for readers of the document; results of arithmetic have none.
 
     Attributes:
         note: An expression of the source.
@@ -24,7 +24,7 @@ class Noted(float):
         made.note = short if len(short) <= LONGEST_NOTE else f"{short[: LONGEST_NOTE - 1]}…"
         return made
 
-    # Of other kinds of numbers Python asks first only those that derive from this one.
+    # Python calls the reflected operators of derived classes first.
 
     def __add__(self, other: float) -> float:
         return float(self) + other

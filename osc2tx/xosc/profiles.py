@@ -14,43 +14,41 @@ class ToolProfile:
 
     Attributes:
         name: As on the command line.
-        versions: What it reads.
-        unsupported: Names of actions, conditions and other elements that it does not carry out,
-            with what it does instead.
-        deviates: Names of those that it carries out in another way, with what it does and how far
-            off that is.
-        has_edges: It looks at `conditionEdge`, and starts events again.
+        versions: The versions that it reads.
+        unsupported: Names of actions, conditions and other elements that it does not execute, with
+            its behavior instead.
+        deviates: Names of those that it executes differently, with its behavior and the deviation.
+        has_edges: It evaluates `conditionEdge`, and restarts events.
         has_delays: `delay` counts from when the condition became true, as in the standard, and a
             condition that is no longer true does not count.
-        is_lazy: Of a group of conditions it looks at none behind a false one, but at delayed ones.
-        latches_conditions: Of a group it wants each condition once, not all at one time.
-        has_act_stop: It ends acts for good by their stop triggers; one that does not looks at the
-            events in them again in each step.
-        stop_name: What the condition is called by which the storyboard stops, if the tool wants it
-            to be one condition with a name of its own, on the state of an element.
+        is_lazy: Behind a false condition of a group it evaluates only delayed ones.
+        latches_conditions: Each condition of a group is required once, not all at one time.
+        has_act_stop: It ends acts by their stop triggers; otherwise it evaluates their events again
+            in each step.
+        stop_name: Name of the condition that stops the storyboard, if the tool requires one named
+            condition on the state of an element.
         needs_lane_range: It finds no lane where a condition names none; in the standard that is
             all.
-        has_shapes: It looks at the shape of the dynamics.
-        takes_speeds_at_once: A new speed is the aim from the start of its action on.
+        has_shapes: It applies the shape of the dynamics.
+        takes_speeds_at_once: A new speed is the setpoint from the start of its action.
         has_booleans: It compares variables with `true` and `false`, not only with numbers.
         carries_acceleration: A profile of speeds begins with the present acceleration; by the
             standard it begins without any.
-        counts_along_roads: A place by lanes from an actor counts `dsLane` along the road; in the
-            standard that is along the lane, which is shorter or longer in a bend.
-        guesses_at_forks: Who changes lane where its lane forks goes on by any of the roads, and so
-            does who drives there against the traffic.
+        counts_along_roads: A position by lanes from an actor counts `dsLane` along the road; in the
+            standard it is along the lane, which is shorter or longer in a bend.
+        guesses_at_forks: An entity that changes lanes, or drives against the traffic, where its
+            lane forks may take any of the roads.
         ego_property: Value of the property `type` by which it knows the ego vehicle; empty if it
             needs none.
-        person_model: What it calls a person, if it takes other names for those of its models.
-        signals_by_place: It knows traffic lights by where they stand, in coordinates of CARLA, not
-            by their ids in the map.
+        person_model: Its model name of a person, if it reads names as its own models.
+        signals_by_place: It identifies traffic lights by their position in coordinates of CARLA,
+            not by their ids in the map.
         knows_towns: Maps have names for it, not only files.
-        begins_with_texts: A variable holds the text of its declaration, which equals no number,
-            until something sets it.
-        walkers_keep_heading: Whether a walker that is told a speed goes along its heading.
-        has_middle_origins: Its models have their origins in the middle, and are put there.
-        moves_maps: What it does with the offset in the header of a map; empty if it leaves maps
-            where they are.
+        begins_with_texts: A variable is the string of its declaration, which equals no number,
+            until an action sets it.
+        walkers_keep_heading: Whether a walker with a new speed moves along its heading.
+        has_middle_origins: Its models have their origins in the middle, and are placed by it.
+        moves_maps: Its treatment of the offset in the header of a map; empty if it ignores it.
     """
 
     name: XmlProfile

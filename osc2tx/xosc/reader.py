@@ -1,8 +1,8 @@
 """Reads documents: text to elements, with their places.
 
-A document is untrusted. It is read without entities of its own, files and networks, and within
-limits; what is refused is refused with a place and a reason. What is only unusual is read as it
-stands: any order, parts of other versions, unknown elements. `checking` says what is wrong there.
+A document is untrusted. It is read without own entities, files and networks, and within limits; a
+refusal has a position and a reason. Unusual documents are read as they are: any order, parts of
+other versions, unknown elements. `checking` reports their defects.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from osc2tx_shared.classes import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """What a document may ask of its reader.
+    """The limits of a document.
 
     Attributes:
         size: Bytes.
@@ -34,15 +34,15 @@ BOUNDED = Limits()
 
 
 class Unreadable(Exception):
-    """A document that cannot be read, or asks for too much.
+    """A document that cannot be read, or exceeds a limit.
 
     Attributes:
         reason: A sentence without full stop.
-        place: Where that shows.
+        place: Its position.
     """
 
     def __init__(self, reason: str, place: Place) -> None:
-        """Take what there is to say."""
+        """Store the details."""
         super().__init__(f"{place}: {reason}")
         self.reason = reason
         self.place = place
@@ -53,7 +53,7 @@ class Comment(NamedTuple):
 
     Attributes:
         text: Its text.
-        within: Where the element begins that it stands in; `None`: outside of the root.
+        within: Where the surrounding element begins; `None`: outside of the root.
     """
 
     text: str
@@ -67,11 +67,11 @@ def read(
 
     Args:
         data: The document; the encoding of bytes is the one that they declare, else UTF-8.
-        limits: What it may ask for.
+        limits: Its limits.
         comments: Takes its comments, in their order.
 
     Raises:
-        Unreadable: It is no XML, or asks for too much.
+        Unreadable: It is no XML, or exceeds a limit.
     """
     if len(data) > limits.size:
         raise Unreadable(f"it has more than {limits.size} bytes", Place(1, 1))

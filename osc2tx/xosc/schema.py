@@ -1,4 +1,4 @@
-"""What each version of OpenSCENARIO XML has: elements, attributes, literals; units and defaults.
+"""The parts of each version of OpenSCENARIO XML: elements, attributes, units, defaults.
 
 The table `schema.json` is made from the schemas by `tools/make_xosc_schema.py`.
 """
@@ -25,9 +25,9 @@ class Part(NamedTuple):
         since: First version that has it.
         until: Last version that has it.
         required: Versions in which it cannot be left out.
-        deprecated: First version that would rather not have it; `""`: none.
-        unit: Of an attribute; `""`: it has none, or that of something else.
-        default: What counts for an attribute that is left out.
+        deprecated: First version in which it is deprecated; `""`: none.
+        unit: Unit of an attribute; `""`: none, or that of another quantity.
+        default: The default of an omitted attribute.
         many: Whether there may be several such children.
     """
 
@@ -108,7 +108,7 @@ def tags() -> Set[str]:
 
 @cache
 def attributes_of(tag: str) -> Mapping[str, Part]:
-    """Return the attributes that elements with a tag may have, of whatever type they are."""
+    """Return the attributes that elements with a tag may have, of any type."""
     return {name: part for each in types_of(tag) for name, part in each.attributes.items()}
 
 

@@ -46,7 +46,7 @@ LISTS = frozenset(
 """Elements that list others: each of those begins a line, and the end tag does."""
 
 TOGETHER = frozenset({"BoundingBox", "ConstraintGroup", "Polyline", "Properties"})
-"""Elements whose children are parts of one thing: they stay on one line."""
+"""Elements whose children stay on one line."""
 
 
 def serialize(root: Element, version: XmlVersion) -> str:
@@ -62,13 +62,13 @@ def serialize(root: Element, version: XmlVersion) -> str:
 
 
 def written(root: Element) -> str:
-    """Return a document as text, whatever it says."""
+    """Return a document as text, without checks."""
     body = "".join(_with_notes(_element(root, type_below(ROOT_TYPE, root.tag), "\n")))
     return f'<?xml version="1.0" encoding="UTF-8"?>\n{in_xml(body)}'
 
 
 class _Note(str):
-    """What gives a number of the line."""
+    """The origins of the numbers of the line."""
 
     __slots__ = ()
 
@@ -92,15 +92,15 @@ def _uncommented(text: str) -> str:
 
 
 def _element(node: Element, type_: str, line: str | None) -> Iterator[str]:
-    """Yield the text of an element of a type; what the type does not have goes to the end.
+    """Yield the text of an element of a type; children that the type does not have are at the end.
 
-    Each of several children begins a line, an only child of no list stands on that of its parent.
-    That depends on no value, so that a longer one changes only its own line.
+    Each of several children begins a line, an only child of no list is on the line of its parent.
+    This is independent of values, so a longer value changes only its own line.
 
     Args:
         node: The element.
         type_: Its type in the schema.
-        line: What begins the line that it stands on; `None`: all of it stays on that.
+        line: Beginning of its line; `None`: all of it stays on one line.
     """
     given = dict(node.attributes)
     known = [name for name in attribute_order(type_) if name in given]

@@ -247,8 +247,8 @@ def test_a_scheduler_that_is_not_there_is_told() -> None:
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        (["--engine", "ray://here:1"], "there is local and dask://HOST:PORT"),
-        (["--engine", "dask://here"], "there is local and dask://HOST:PORT"),
+        (["--engine", "ray://here:1"], "use local or dask://HOST:PORT"),
+        (["--engine", "dask://here"], "use local or dask://HOST:PORT"),
         (["--engine", "dask://here:1", "--workers", "2"], "--workers is for --engine local"),
         (["--engine", "dask://here:1", "--timeout", "2"], "--timeout is for --engine local"),
     ],

@@ -136,7 +136,7 @@ def test_the_command(place: Path, tmp_path: Path, capsys: pytest.CaptureFixture[
     assert (quiet.code, quiet.out) == (0, "")
     ended = shell("campaign", "report", empty)
     assert ended.code == 2
-    assert "nothing was run yet" in ended.err
+    assert "no rows yet" in ended.err
 
 
 def test_several_campaigns(

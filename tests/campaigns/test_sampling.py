@@ -161,7 +161,7 @@ def test_points_that_keep_a_thin_set_are_found(sampler: str) -> None:
 
 @pytest.mark.parametrize("sampler", ["lhs", "sobol", "halton"])
 def test_a_set_that_is_too_thin_is_refused_with_the_reason(sampler: str) -> None:
-    """One point in 5000 keeps the constraints, and a seed finds one."""
+    """One point in 5000 satisfies the constraints, and a seed finds one."""
     with pytest.raises(CampaignError, match="none of 1000 points") as error:
         values(NARROW, sampler, 5)
     assert re.search(r"case\.osc:\d+: `\w - \w < 0\.0001` does not hold \(a=", str(error.value))
@@ -173,7 +173,7 @@ def test_what_keeps_constraints_only_now_and_then_is_given_up(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr("osc2tx.campaigns.planner.MOST_LEFT_OUT", 20)
-    said = r"[1-9] of \d+ points \(\d+\.\d{3}%\) keep the constraints, none of the last 20: "
+    said = r"[1-9] of \d+ points \(\d+\.\d{3}%\) satisfy the constraints, none of the last 20: "
     with pytest.raises(CampaignError, match=said):
         values(ORDERED, "halton", 500)
 

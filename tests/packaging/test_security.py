@@ -10,7 +10,7 @@ ROOT = Path(__file__).parents[2]
 
 @pytest.mark.parametrize(
     ("page", "heading"),
-    [("SECURITY.md", "## Promises"), ("docs/robustness.md", "## What was once wrong")],
+    [("SECURITY.md", "## Promises"), ("docs/robustness.md", "## Corrected defects")],
 )
 def test_each_row_names_its_test(page: str, heading: str) -> None:
     text = (ROOT / page).read_text(encoding="utf-8")

@@ -173,7 +173,7 @@ def test_tables_of_files_that_do_not_exist(tmp_path: Path) -> None:
     assert configs.unmatched_tables() == []  # nobody asked for a source of it
     configs.for_source(tmp_path / "a.osc")
     assert configs.unmatched_tables() == [
-        f"{path}: [scenarios.hero] is for no file: there is no `hero.osc`"
+        f"{path}: [scenarios.hero] matches no file: there is no `hero.osc`"
     ]
 
 

@@ -97,7 +97,7 @@ def test_names_that_are_no_names_of_files(tmp_path: Path, module: str) -> None:
     write(tmp_path / "lib/.hidden.osc", "enum secret: [a]\n")
     compilation = compiled(main(tmp_path, module.format(root=tmp_path)), tmp_path / "lib")
     ((code, message, _),) = reports(compilation)
-    assert (code, message.endswith("is no name of a module")) == ("OSC205", True)
+    assert (code, message.endswith("is not a name of a module")) == ("OSC205", True)
     assert str(secret) not in map(str, compilation.lookups)
 
 

@@ -1,7 +1,7 @@
-"""Alternatives: what holds whichever of several conditions is the true one.
+"""Alternatives: the consequences that several conditions have in common.
 
-`x in [0..4] or x in [6..8]` implies nothing about either part, but that `x` is between 0 and 8.
-Each alternative is propagated by itself; the domain of a parameter is the union over all of them.
+`x in [0..4] or x in [6..8]` implies neither part, but that `x` is between 0 and 8. Each alternative
+is propagated separately; the domain of a parameter is the union over all of them.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from osc2tx.analysis.constraints.domains import (
 from osc2tx.analysis.constraints.operation_list import Key, Operation
 
 ALTERNATIVES = frozenset({"or", "and", "=>"})
-"""Operations that can have their result in several ways."""
+"""Operations whose result has several possible causes."""
 
 Propagate: TypeAlias = Callable[[list[Domain], range], None]
 """Narrows the values of the operations in a range, from the last one down to the first."""
@@ -37,9 +37,9 @@ def narrow_alternatives(
 
     Args:
         items: The operations of an expression.
-        position: Of the operation.
-        values: What each operation can be; parameters below get less.
-        propagate: Goes through the operations of one alternative.
+        position: Position of the operation.
+        values: The possible values of each operation; those of parameters below are narrowed.
+        propagate: Propagates the operations of one alternative.
 
     Raises:
         EmptyDomainError: If none of the alternatives is possible.
@@ -94,7 +94,7 @@ def _parts(operation: Operation, value: Domain) -> list[Literal]:
 
 
 def _starts(items: Sequence[Operation]) -> list[int]:
-    """Return where the operands of each operation begin: all of them stand before it."""
+    """Return where the operands of each operation begin: they all precede it."""
     starts: list[int] = []
     for position, operation in enumerate(items):
         starts.append(min((starts[operand] for operand in operation.operands), default=position))
@@ -104,7 +104,7 @@ def _starts(items: Sequence[Operation]) -> list[int]:
 def _parameters(
     items: Sequence[Operation], part: range, values: Sequence[Domain]
 ) -> dict[Key, Domain]:
-    """Return what each parameter in a part can be.
+    """Return the possible values of each parameter in a part.
 
     Raises:
         EmptyDomainError: If two occurrences of it have no value in common.

@@ -35,7 +35,7 @@ NEGATED = {"<": ">=", "<=": ">", ">": "<=", ">=": "<", "==": "!=", "!=": "=="}
 
 
 def narrow(operation: Operation, result: Domain, operands: Sequence[Domain]) -> Narrowings:
-    """Yield what follows for the operands; positions count from the first operand."""
+    """Yield the consequences for the operands; positions count from the first operand."""
     match operation.name:
         case "not":
             yield 0, negated(result)
@@ -109,14 +109,14 @@ def _comparison(name: str, holds: bool, operands: Sequence[Domain]) -> Narrowing
         return
     relation = name if holds else NEGATED[name]
     if not holds and name in SWAPPED and (left.nan or right.nan):
-        if not (left.nan and right.nan):  # the comparison is false for NaN, whatever the numbers
+        if not (left.nan and right.nan):  # the comparison is false for NaN and any number
             yield from _with_nan(relation, left, right)
         return
     yield from _order(relation, left, right)
 
 
 def _with_nan(relation: str, left: Interval, right: Interval) -> Narrowings:
-    """Narrow the side that may be NaN, by what the other side allows if it is not."""
+    """Narrow the side that may be NaN to the values that the other side allows."""
     if is_void(left) or is_void(right):
         return
     for index, domain in _order(relation, left, right):

@@ -1,8 +1,8 @@
 """The constraints that hold in a type, in the order of the text (§7.3.11, §7.6.2.3).
 
 For a type these are: the `keep`s of its body and of its bases, defaults and `with` blocks of its
-fields, arguments and `with` blocks of its invocations and modifier applications; and for fields
-and invocations of user-defined types what these demand of their own members.
+fields, arguments and `with` blocks of its invocations and modifier applications; and, for fields
+and invocations of user-defined types, the constraints of these types.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ Instance: TypeAlias = ast.Invocation | ast.ModifierApplication
 
 
 Shared: TypeAlias = "dict[sym.TypeSymbol, tuple[list[Entry], Mapping[Key, sym.TypeSymbol]]]"
-"""What each type states itself, and the objects in that."""
+"""The constraints of each type itself, and the objects in them."""
 
 
 class Collector:
@@ -38,7 +38,7 @@ class Collector:
     Args:
         model: The checked program.
         special: The conditional types that objects are known to be of.
-        shared: What types state themselves, which types that derive from them state too.
+        shared: The constraints of types themselves, which derived types share.
     """
 
     def __init__(
@@ -55,7 +55,7 @@ class Collector:
         self.objects: dict[Key, sym.TypeSymbol] = {}
 
     def collect(self, owner: sym.TypeSymbol) -> list[Entry]:
-        """Return what constrains an instance of a type, in the order of the text."""
+        """Return the constraints on an instance of a type, in the order of the text."""
         own = list(self._of_own_actor(owner))
         for ancestor in reversed(list(supertypes(owner))):
             entries, objects = self._of_ancestor(ancestor)
@@ -77,7 +77,7 @@ class Collector:
         return self._shared[ancestor]
 
     def _of_own_actor(self, owner: sym.TypeSymbol) -> Iterator[Entry]:
-        """Yield what modifiers say that are members of the type of a behavior's actor."""
+        """Yield the constraints of modifiers that are members of the type of a behavior's actor."""
         actor = owner.actor if isinstance(owner, sym.ScenarioSymbol | sym.ActionSymbol) else None
         for ancestor in () if actor is None else supertypes(actor):
             place = Place(model=self._model, owner=ancestor, prefix=(), it=None)
@@ -86,7 +86,7 @@ class Collector:
                     yield from self._of_instance(place, statement, statement.arguments)
 
     def collect_global(self, parameter: sym.FieldSymbol) -> list[Entry]:
-        """Return what constrains a global parameter, and those that it depends on."""
+        """Return the constraints on a global parameter, and on those that it depends on."""
         place = Place(model=self._model, owner=None, prefix=(), it=None)
         own: list[Entry] = []
         if isinstance(parameter.node, ast.ParameterDeclaration):
@@ -95,7 +95,7 @@ class Collector:
         return [*others, *own]
 
     def collect_globals(self) -> list[Entry]:
-        """Return what constrains the global parameters of the program."""
+        """Return the constraints on the global parameters of the program."""
         place = Place(model=self._model, owner=None, prefix=(), it=None)
         return [
             entry
@@ -105,7 +105,7 @@ class Collector:
         ]
 
     def _of_globals(self, entries: list[Entry]) -> list[Entry]:
-        """Return what constrains the global parameters that some constraints mention."""
+        """Return the constraints on the global parameters that some constraints mention."""
         place = Place(model=self._model, owner=None, prefix=(), it=None)
         found: list[Entry] = []
         seen: set[Key] = set()
@@ -139,7 +139,7 @@ class Collector:
         )
 
     def _of_condition(self, place: Place, type_: sym.TypeSymbol) -> Iterator[Entry]:
-        """Yield what holds for all instances of a type with conditional inheritance."""
+        """Yield the constraints on all instances of a type with conditional inheritance."""
         match type_:
             case (
                 sym.StructSymbol(condition=ast.InheritanceCondition() as condition)
@@ -176,7 +176,7 @@ class Collector:
             yield from self._of_with_field(replace(place, it=key, it_type=type_), node)
             return
         if isinstance(type_, sym.ActorSymbol) and isinstance(node.default, ast.NameExpression):
-            # Another actor, of which its own declaration says all.
+            # Another actor, whose declaration has all its constraints.
             yield from self._of_with_field(replace(place, it=key, it_type=type_), node)
             return
         is_ours = type_ is not None and any(not t.is_as_library for t in supertypes(type_))
@@ -255,7 +255,7 @@ class Collector:
         if node in place.prefix:
             return  # a modifier that applies itself
         if callee.origin == "user":
-            # In a modifier `it` is what that is applied to (§7.3.12).
+            # In a modifier `it` is the modified behavior (§7.3.12).
             it = place.it if isinstance(callee, sym.ModifierSymbol) else prefix
             handed_in = {**place.handed_in, **dict(_objects(place, prefix, binding))}
             inner = replace(
@@ -275,7 +275,7 @@ class Collector:
 
 
 def _objects(place: Place, prefix: Key, binding: Binding) -> Iterator[tuple[Key, Key]]:
-    """Yield the parameters of a callee that are objects, each with the one that it stands for."""
+    """Yield the parameters of a callee that are objects, each with the passed object."""
     for parameter, value in binding.arguments:
         if isinstance(parameter, sym.FieldSymbol) and isinstance(
             symbol_of(parameter.type), sym.ActorSymbol | sym.StructSymbol

@@ -1,6 +1,6 @@
 """Values of expressions that are constant: literals, methods of constants, sizes of lists (§7.4).
 
-What need not be evaluated is not (§7.4.2.2), so that a recursive method comes to its end.
+Operands without effect on the result are not evaluated (§7.4.2.2), so recursive methods end.
 """
 
 from __future__ import annotations
@@ -50,10 +50,10 @@ class WithoutValueError(Exception):
     """An expression that has no value is certainly evaluated.
 
     Attributes:
-        code: Of the report.
-        node: The part that has none.
-        message: Why.
-        help: What to do about it.
+        code: Code of the diagnostic.
+        node: The part without a value.
+        message: The reason.
+        help: The remedy.
     """
 
     code = ""
@@ -203,7 +203,7 @@ class ConstantEvaluator:
         try:
             found = OPERATIONS[name](*numbers) if len(numbers) == 2 else -numbers[0]
         except ArithmeticError:
-            return None  # a report of its own
+            return None  # has a diagnostic of its own
         if type_ in (types.INT, types.UINT) and not isinstance(found, bool | str):
             return found if fits(Interval(found, found), str(type_)) else None
         return found

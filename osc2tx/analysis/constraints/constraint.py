@@ -23,18 +23,18 @@ Op = ast.BinaryOperator
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Constraint:
-    """One constraint as it applies to one instance.
+    """A constraint on one instance.
 
     Attributes:
         node: The `keep`, the default value or the argument.
-        span: What to show of it.
+        span: The text to show.
         origin: `"keep"`, `"default value"`, `"argument"`, or `"element"`: a list is long enough for
             an element that a constraint mentions.
         is_default: Whether a later one may replace it.
         subject: The parameter alone on its left side, if it is an equality or a range.
-        value: What the subject is set to, or the range or list that it is in.
-        operations: The whole of it.
-        place: Where the names in `value` are looked up.
+        value: The value of the subject, or its range or list.
+        operations: The complete constraint.
+        place: Scope of the names in `value`.
     """
 
     node: ast.Node
@@ -53,7 +53,7 @@ class Constraint:
 
     @property
     def _is_in_a_list(self) -> bool:
-        """Whether it says `x in xs`; what `xs` has may not be known here."""
+        """Whether it is `x in xs`; the contents of `xs` may be unknown."""
         node = self.node
         said = node.expression if isinstance(node, ast.KeepConstraint) else None
         return isinstance(said, ast.Binary) and said.operator is Op.IN
@@ -101,7 +101,7 @@ class ConstraintWriter:
         )
 
     def rule(self, place: Place, rule: ast.KeepConstraint | ast.RemoveDefault) -> Iterator[Entry]:
-        """Yield what a `keep` or `remove_default` says."""
+        """Yield the constraints of a `keep` or `remove_default`."""
         if isinstance(rule, ast.RemoveDefault):
             removed = place.locate(rule.parameter)
             if removed is not None:

@@ -53,7 +53,7 @@ class Interval:
 
 @dataclass(frozen=True, slots=True)
 class Choice:
-    """The values of a set, or with `excluded` all others; enum members stand as their numbers."""
+    """The values of a set, or with `excluded` all others; enum members are their numbers."""
 
     values: frozenset[Value]
     excluded: bool = False

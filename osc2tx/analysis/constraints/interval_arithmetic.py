@@ -124,7 +124,7 @@ def _bounds(
 
 
 def divide_integers(a: Interval, b: Interval, kind: str) -> Interval:
-    """Return `a / b` of integers, whichever way it is rounded (which the standard leaves open)."""
+    """Return `a / b` of integers, with any rounding (which the standard leaves open)."""
     if b.lower <= 0 <= b.upper:
         return WHOLE[kind]
     results = [
@@ -163,28 +163,28 @@ def remainder(a: Interval, b: Interval, kind: str) -> Interval:
 
 
 def addend(z: Interval, other: Interval, kind: str) -> Interval:
-    """Return what `x` can be in `x + other = z`."""
+    """Return the possible `x` in `x + other = z`."""
     if kind != "float":
         return wrapped(subtract(z, other), kind)  # also right if the sum wraps round
     return _loose(subtract(widened(z), other))
 
 
 def minuend(z: Interval, other: Interval, kind: str) -> Interval:
-    """Return what `x` can be in `x - other = z`."""
+    """Return the possible `x` in `x - other = z`."""
     if kind != "float":
         return wrapped(add(z, other), kind)
     return _loose(add(widened(z), other))
 
 
 def subtrahend(z: Interval, other: Interval, kind: str) -> Interval:
-    """Return what `x` can be in `other - x = z`."""
+    """Return the possible `x` in `other - x = z`."""
     if kind != "float":
         return wrapped(subtract(other, z), kind)
     return _loose(subtract(other, widened(z)))
 
 
 def factor(z: Interval, other: Interval) -> Interval:
-    """Return what `x` can be in `x * other = z` of floats."""
+    """Return the possible `x` in `x * other = z` of floats."""
     z = widened(z)
     if other.lower < 0 < other.upper or (
         z.lower <= 0 <= z.upper and other.lower <= 0 <= other.upper
@@ -208,21 +208,21 @@ def _by_touching_zero(z: Interval, other: Interval) -> Interval:
 
 
 def integer_factor(z: Interval, other: Interval, kind: str) -> Interval:
-    """Return what `x` can be in `x * other = z` of integers that do not wrap round."""
+    """Return the possible `x` in `x * other = z` of integers that do not wrap round."""
     if other.lower <= 0 <= other.upper:
         return WHOLE[kind]
     return divide_integers(z, other, kind)
 
 
 def dividend(z: Interval, divisor: Interval) -> Interval:
-    """Return what `x` can be in `x / divisor = z` of floats."""
+    """Return the possible `x` in `x / divisor = z` of floats."""
     if divisor.lower <= 0 <= divisor.upper:
         return ANY_FLOAT
     return _loose(multiply(widened(z), divisor))
 
 
 def divisor(z: Interval, dividend: Interval) -> Interval:
-    """Return what `x` can be in `dividend / x = z` of floats."""
+    """Return the possible `x` in `dividend / x = z` of floats."""
     return _loose(divide(dividend, widened(z)))
 
 

@@ -163,11 +163,11 @@ Graph: TypeAlias = Mapping[Key, Sequence[_Edge]]
 def find_contradiction(
     expressions: Sequence[OperationList], active: Sequence[int]
 ) -> tuple[int, ...]:
-    """Return constraints that put parameters in an impossible order; empty if they do not.
+    """Return constraints that require an impossible order of parameters; empty if there are none.
 
     Args:
         expressions: All constraints; the root of each must be true.
-        active: Positions of those that count.
+        active: Positions of the effective ones.
     """
     graph: dict[Key, list[_Edge]] = {}
     denied: list[_Edge] = []

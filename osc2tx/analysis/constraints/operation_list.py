@@ -1,8 +1,8 @@
-"""An expression as a flat list of operations, operands before what uses them.
+"""An expression as a flat list of operations, operands before their operations.
 
 A list can be evaluated forward and backward by loops, however deep the expression nests.
-What cannot be known when compiling (variables of the world, methods, casts, objects) becomes an
-operation that can have any value of its type.
+Values that are unknown at compile time (variables of the world, methods, casts, objects) become
+operations that can have any value of their type.
 """
 
 from __future__ import annotations
@@ -329,7 +329,7 @@ class OperationListBuilder:
             return operations.add(Operation(name, "bool", ANY_BOOL, tuple(operands), node=node))
         if node.operator is Op.IN:
             if not isinstance(node.right, ast.RangeLiteral | ast.ListLiteral):
-                return self._any(operations, node)  # what it has shows in the run
+                return self._any(operations, node)  # its contents are known in the run
             form = "in range" if isinstance(node.right, ast.RangeLiteral) else "in list"
             return self.append_comparison(operations, form, operands[0], operands[1:], node)
         if node.operator in COMPARISONS:
@@ -371,5 +371,5 @@ def point_of(member: sym.EnumMemberSymbol) -> Choice:
 
 
 def point_of_choice(value: Value) -> Choice:
-    """Return the set of one text, or of one enum member, which stands as its number."""
+    """Return the set of one string, or of one enum member, as its number."""
     return Choice(frozenset({value}))

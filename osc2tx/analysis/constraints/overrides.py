@@ -1,8 +1,8 @@
 """The effective constraints after overriding (§7.3.11).
 
 A later equality or range with the parameter alone on its left side replaces earlier defaults of
-that parameter; `remove_default` drops all earlier defaults that mention it. Whatever else comes
-later is conjoined with them.
+that parameter; `remove_default` drops all earlier defaults that mention it. All other later
+constraints apply in addition.
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ class EffectiveConstraints:
     """Constraints after overriding.
 
     Attributes:
-        constraints: Those that hold, in the order of the text.
-        replaced: The defaults that do not, by what replaced them; `None` for `remove_default`.
+        constraints: The effective ones, in the order of the text.
+        replaced: The replaced defaults, with their replacements; `None` for `remove_default`.
     """
 
     constraints: tuple[Constraint, ...]

@@ -1,4 +1,4 @@
-"""Which parameter a name or path stands for, at a place in the text."""
+"""The parameter that a name or path denotes at a position in the text."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ from osc2tx_shared.classes import dataclass
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Place:
-    """Where an expression stands.
+    """The scope of an expression.
 
     Attributes:
         model: The checked program.
         owner: The type whose members plain names mean; `None` for global parameters.
-        prefix: The instance of that type; empty for the type that is looked at.
-        it: What `it` is; `None` if that is no parameter.
+        prefix: The instance of that type; empty for the analysed type.
+        it: The meaning of `it`; `None` if it is not a parameter.
         it_type: The type of `it`, whose members plain names may mean too.
-        handed_in: Parameters that are objects of the invoker, and which ones.
+        handed_in: Parameters that are objects of the invoker, with these objects.
     """
 
     model: SemanticModel
@@ -59,7 +59,7 @@ class Place:
         return self.owned(key) or None  # the instance as a whole is no parameter of it
 
     def owned(self, key: Key) -> Key:
-        """Return a path below a parameter as one below the object that was handed in for it."""
+        """Return a path below a parameter as a path below its passed object."""
         for length in range(len(key), 1, -1):
             if key[:length] in self.handed_in:
                 return (*self.handed_in[key[:length]], *key[length:])

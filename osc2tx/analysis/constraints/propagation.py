@@ -1,6 +1,6 @@
 """Results of the constraint analysis: parameters that are fixed, bounded or open.
 
-`ConstraintAnalysis` is the result for later stages. Ask it for a parameter of a scenario:
+`ConstraintAnalysis` is the result for later stages. Its queries about a parameter of a scenario:
 
     found = analysis.parameter(scenario, field)         # or a path: (scenario, pose, position, x)
     match found.state:
@@ -141,10 +141,10 @@ class TypeConstraints:
         )
 
     def domains_to_set(self) -> Mapping[Key, Domain]:
-        """Return the domain of each parameter when all plain defaults may be replaced.
+        """Return the domain of each parameter if all defaults may be replaced.
 
-        Settings of a run may choose from it: they come after every default. What no default
-        reaches, by way of constraints on several parameters, is as it was.
+        Settings of a run choose from it, as they replace defaults. Parameters that no default
+        affects, even through constraints on several parameters, keep their domain.
         """
         firm = self.firm
         plain = set(self.in_force.constraints).difference(firm)
@@ -215,7 +215,7 @@ def _analyse_objects(
     conditions: tuple[Condition, ...],
     shared: Shared | None = None,
 ) -> TypeConstraints:
-    """Analyse constraints, again while more turns out about what their objects are."""
+    """Analyse constraints, and again while more is found about the types of their objects."""
     special: dict[Key, tuple[Special, ...]] = {}
     while True:
         collector = Collector(model, special, shared)
@@ -234,13 +234,13 @@ def _analyse_objects(
 
 
 def analyse_global(model: SemanticModel, parameter: sym.FieldSymbol) -> TypeConstraints:
-    """Collect and propagate what constrains a global parameter."""
+    """Collect and propagate the constraints on a global parameter."""
     collect = partial(Collector.collect_global, parameter=parameter)
     return _analyse_objects(model, None, collect, conditions_of(model))
 
 
 def analyse_globals(model: SemanticModel) -> TypeConstraints:
-    """Collect and propagate what constrains the global parameters together."""
+    """Collect and propagate the constraints on all global parameters."""
     return _analyse(None, Collector(model).collect_globals())
 
 

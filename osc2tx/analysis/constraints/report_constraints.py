@@ -44,7 +44,7 @@ def report_constraints(
         model: The checked program.
         analysis: Its constraints.
         usage: Where the program gives values, and divides them.
-        sink: Where reports go.
+        sink: Receives the diagnostics.
     """
     misfits = _report_integers(model, usage.settings, sink)
     misfits |= _report_divisions(model, usage.divisions, sink)
@@ -157,7 +157,7 @@ def _labels(conflict: tuple[Constraint, ...], primary: Constraint) -> list[Label
 def _says(constraint: Constraint) -> str:
     text = " ".join(constraint.span.text.split())
     if constraint.origin == "element":
-        return f"`{text}` is one of more"
+        return f"`{text}` is one of several alternatives"
     if constraint.origin == "keep" or constraint.subject is None:
         return f"`{text}`"
     word = "in" if constraint.is_range else "=="
@@ -199,7 +199,7 @@ def _report_divisions(
 
 
 def _report_without_value(model: SemanticModel, usage: Usage, sink: DiagnosticSink) -> None:
-    """Report what has no value, whatever the parameters are."""
+    """Report expressions that have no value for any parameters."""
     constants = ConstantEvaluator(model)
     reported = set()
     for expression in (*usage.demanded, *usage.casts):

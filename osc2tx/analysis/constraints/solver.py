@@ -23,15 +23,15 @@ from osc2tx_shared.classes import dataclass
 PASSES = 40  # how often a constraint is visited on average, at most
 FREE_PASSES = 4  # from then on only steps that change something visibly are followed
 VISIBLE = 1e-6
-LARGEST_CORE = 60  # constraints among which a smallest contradiction is looked for
+LARGEST_CORE = 60  # constraints among which a minimal contradiction is searched
 
 
 @dataclass(frozen=True, slots=True)
 class Solution:
-    """The state when nothing changes any more.
+    """The state at the fixed point.
 
     Attributes:
-        domains: What each parameter can be.
+        domains: The possible values of each parameter.
         conflict: Positions of constraints that cannot hold together; empty if none was found.
     """
 
@@ -56,8 +56,8 @@ def solve(
 
     Args:
         expressions: All constraints; the root of each is boolean, and must be true.
-        active: Positions of those that count.
-        given: What else is known of parameters.
+        active: Positions of the effective ones.
+        given: Further known domains of parameters.
     """
     state = _State(expressions, dict(given or {}))
     users: dict[Key, list[int]] = {}
@@ -111,7 +111,7 @@ def smallest_conflict(
 
 
 def values_on(operations: OperationList, domains: Mapping[Key, Domain]) -> list[Domain]:
-    """Return what each operation of an expression can be."""
+    """Return the possible values of each operation of an expression."""
     values: list[Domain] = []
     for operation in operations.items:
         if operation.key is not None:
@@ -122,7 +122,7 @@ def values_on(operations: OperationList, domains: Mapping[Key, Domain]) -> list[
 
 
 def _revise(state: _State, index: int) -> list[Key]:
-    """Let one constraint narrow its parameters; return those that it did narrow."""
+    """Narrow parameters by one constraint; return the narrowed ones."""
     operations = state.expressions[index]
     if operations.is_plain and _is_untouched(state, operations):
         return _settle(state, index)
@@ -135,7 +135,7 @@ def _is_untouched(state: _State, operations: OperationList) -> bool:
 
 
 def _settle(state: _State, index: int) -> list[Key]:
-    """Let a plain constraint say what its parameter is; it is worked out once."""
+    """Narrow a parameter by a simple constraint, whose domain is computed once."""
     operations = state.expressions[index]
     (key,) = operations.keys_in_order
     if operations.alone is None:
@@ -173,7 +173,7 @@ def _narrowed(state: _State, index: int, operations: OperationList) -> list[Key]
 
 
 def _propagate(operations: OperationList, values: list[Domain], part: range) -> None:
-    """Narrow operands by what uses them, from the last operation of a part down to the first."""
+    """Narrow operands by their operations, from the last operation of a part to the first."""
     for position in reversed(part):
         operation = operations.items[position]
         if not operation.operands:

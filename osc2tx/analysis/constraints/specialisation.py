@@ -52,7 +52,7 @@ def conditions_of(model: SemanticModel) -> tuple[Condition, ...]:
 
 
 def determinant_of(model: SemanticModel, symbol: Special | Behavior) -> Determinant | None:
-    """Return what decides whether something of the base type is of a type."""
+    """Return the conditions under which an object of the base type is of a type."""
     condition = symbol.condition
     if condition is None:
         return None
@@ -97,7 +97,7 @@ def specialised(
     domains: Mapping[Key, Domain],
     special: Mapping[Key, tuple[Special, ...]],
 ) -> dict[Key, tuple[Special, ...]]:
-    """Return the conditional types that objects certainly are of, with what follows from them."""
+    """Return the conditional types that objects certainly have, with their consequences."""
     found = dict(special)
     for key, declared in objects.items():
         for condition in types_below(conditions, declared, found.get(key, ())):

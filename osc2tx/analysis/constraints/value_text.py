@@ -50,7 +50,7 @@ def _listed(
 
 
 def format_free(model: SemanticModel, parameter: ParameterDomain) -> str:
-    """Return a parameter without value or range, with what bounds it on one side."""
+    """Return a parameter without value or range, with its bound on one side."""
     domain = parameter.domain
     if isinstance(domain, Interval) and isinstance(parameter.type, types.PhysicalType):
         unit = unit_of(model, parameter.constraints)

@@ -1,1 +1,1 @@
-"""Warnings about scenarios that are valid: what never happens, is never used or never ends."""
+"""Warnings about valid scenarios: unreachable, unused and endless parts."""

@@ -23,9 +23,9 @@ class _Part:
     """The first action of an actor.
 
     Attributes:
-        has_place: Whether something says where it starts.
-        has_pace: Whether something says how fast.
-        is_settled: Whether the first action that takes time has been seen.
+        has_place: Whether its start position is stated.
+        has_pace: Whether its start speed is stated.
+        is_settled: Whether the first action that takes time was visited.
     """
 
     has_place: bool = False
@@ -100,7 +100,7 @@ def _look_at_modifier(
     binding = model.bindings.get(node)
     if binding is None:
         return
-    if node.modifier.text == "tow_trailer":  # what is towed is behind what tows it
+    if node.modifier.text == "tow_trailer":  # a towed trailer is behind its towing vehicle
         for _, value in binding.arguments:
             _settle(_part_of(model, cast, value))
     if part is None or part.is_settled:
@@ -150,7 +150,7 @@ def _has_file(
     map_: sym.FieldSymbol,
     constraints: ConstraintAnalysis,
 ) -> bool:
-    """Whether something says which road network it is."""
+    """Whether the road network is stated."""
     is_global = map_ in model.global_parameters
     of_global = [analyse_global(model, map_)] if is_global else []
     for found in (constraints.types[scenario], *of_global):

@@ -1,6 +1,6 @@
-"""Durations and `until` that no run can keep both (§7.6.2.1, §7.6.2.5.4).
+"""Durations and `until` that contradict each other in every run (§7.6.2.1, §7.6.2.5.4).
 
-Only times that literals state count: what parameters and the run decide, the run judges.
+Only times of literals count: the run checks those that parameters or the run decide.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ def _report(
         when = f"later than the {_text(length)} that it takes"
     elif given is not None and ends[1] < given[0] - SLACK:
         when = f"earlier than its duration of {_text(given)}"
-    else:  # ending a member early is what `until` is for
+    else:  # `until` may end a member early
         return
     other = judge.span_of_duration(member)
     sink.report(
@@ -68,7 +68,7 @@ def _text(times: Times) -> str:
 
 
 class _Durations:
-    """What literals say about the times of members."""
+    """The times of members, as far as literals state them."""
 
     def __init__(self, model: SemanticModel, endings: Endings) -> None:
         self._model = model
@@ -119,7 +119,7 @@ class _Durations:
         return (min(low for low, _ in times), min(high for _, high in times)), first.event.span
 
     def _length(self, member: ast.BehaviorMember) -> Times | None:
-        """Return how long a member takes, with what bounds it."""
+        """Return the duration of a member, with its bounds."""
         if not isinstance(member, ast.Composition | ast.Invocation):
             return self.own_length(member)
         until, given = self.until(member), self.given(member)
@@ -144,7 +144,7 @@ class _Durations:
         return self._times(condition.duration)
 
     def _times(self, expression: ast.Expression) -> Times | None:
-        """Return the seconds that an expression of literals stands for."""
+        """Return the value of an expression of literals, in seconds."""
         if isinstance(expression, ast.RangeLiteral):
             low, high = self._times(expression.lower), self._times(expression.upper)
             return None if low is None or high is None else (low[0], high[1])

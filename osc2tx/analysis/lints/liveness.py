@@ -26,7 +26,7 @@ def report_liveness(
         model: The checked program.
         endings: Which members never end by themselves.
         invoked: The behaviors that something in the program invokes.
-        sink: Where reports go.
+        sink: Receives the diagnostics.
     """
     for scenario in model.scenarios:
         directives = [d for d in do_directives(scenario) if d in scenario.statements]
@@ -83,7 +83,7 @@ def _report_after_endless(
 
 
 def _report_without_end(root: ast.BehaviorMember, endings: Endings, sink: DiagnosticSink) -> None:
-    """Report the outermost parallel or race in which nothing comes to an end."""
+    """Report the outermost parallel or race without a member that ends."""
     member = root
     while member in endings.endless and isinstance(member, ast.Composition):
         endless = [child for child in member.members if child in endings.endless]
@@ -97,7 +97,7 @@ def _report_without_end(root: ast.BehaviorMember, endings: Endings, sink: Diagno
             )
             return
         if endless[0] is not member.members[-1]:
-            return  # what follows is reported as never reached
+            return  # the members behind it are reported as unreachable
         member = endless[0]
 
 

@@ -1,7 +1,7 @@
-"""Scenarios that invoke themselves and have no way out.
+"""Scenarios that invoke themselves endlessly.
 
-No rule forbids recursion (§7.6.1.4): an invocation that leads back to its own scenario is made when
-it starts. It is endless if every alternative leads back and nothing ends it from outside.
+The standard allows recursion (§7.6.1.4): a recursive invocation is created when it starts. It is
+endless if every alternative is recursive and no surrounding member ends it.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ Invoked: TypeAlias = Mapping[Behavior, ast.Name]
 
 
 def report_recursion(model: SemanticModel, sink: DiagnosticSink) -> None:
-    """Report the circles of invocations without a way out, one for each way in."""
+    """Report the endless cycles of invocations, one for each entry."""
     graph = {
         symbol: _invoked_by(model, symbol)
         for symbol in model.symbols
@@ -38,7 +38,7 @@ def report_recursion(model: SemanticModel, sink: DiagnosticSink) -> None:
 
 
 class _WaysOut:
-    """Which behaviors can come to an end, and which are ended by those who invoke them."""
+    """The behaviors that can end, and those that their invokers end."""
 
     def __init__(self, model: SemanticModel, graph: Mapping[Behavior, Invoked]) -> None:
         self._model = model
@@ -78,7 +78,7 @@ class _WaysOut:
         return callee in self._found or callee.origin != "user"
 
     def _cut(self, behavior: Behavior) -> Iterator[Behavior]:
-        """Yield what a behavior invokes and ends by an `until`."""
+        """Yield the behaviors that a behavior invokes and ends by an `until`."""
         for directive in do_directives(behavior):
             for member in do_members(directive.member):
                 if isinstance(member, ast.Invocation | ast.Composition) and _has_until(member):
@@ -115,7 +115,7 @@ def _invoked_by(model: SemanticModel, behavior: Behavior) -> Invoked:
 def _circles(
     graph: Mapping[Behavior, Invoked], start: Behavior, done: set[Behavior]
 ) -> Iterator[list[Behavior]]:
-    """Walk depth first; yield the part of the way that each step back to it closes."""
+    """Walk depth first; yield each cycle that a step closes."""
     way: dict[Behavior, Iterator[Behavior]] = {start: iter(graph[start])}
     while way:
         current = next(reversed(way))

@@ -1,6 +1,6 @@
 """Members that begin together and control the same slot of one actor (§7.3.13).
 
-Only what is certain is reported: actions of the library that begin in the same instant.
+Only certain conflicts are reported: actions of the library that begin at the same instant.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ def _overrides(model: SemanticModel, node: ast.ModifierApplication) -> bool:
 
 
 def _report(starts: Iterable[Iterable[_Claim]], sink: DiagnosticSink) -> None:
-    """Report what two members claim, once for each slot of an actor."""
+    """Report the slots that two members claim, once for each slot of an actor."""
     holders: dict[tuple[sym.Symbol | None, str], tuple[int, _Claim]] = {}
     told = set()
     for number, claims in enumerate(starts):
@@ -81,24 +81,24 @@ def _report(starts: Iterable[Iterable[_Claim]], sink: DiagnosticSink) -> None:
 
 @dataclass(frozen=True, slots=True)
 class _Starts:
-    """Which actions begin in the instant in which a member of a `do` tree begins.
+    """The actions that begin at the instant at which a member of a `do` tree begins.
 
     Attributes:
         model: The checked program.
-        together: The compositions of which all members begin at once.
+        together: The compositions whose members all begin at the same instant.
     """
 
     model: SemanticModel
     together: tuple[ast.CompositionOperator, ...]
 
     def are_together(self, node: ast.Composition) -> bool:
-        """Whether the members of a composition begin at once, and nothing but an end ends them."""
+        """Whether the members of a composition begin together, and only a stated end ends them."""
         only_length = all(a.name is not None and a.name.text == "duration" for a in node.arguments)
         is_plain = not any(isinstance(m, ast.ModifierApplication) for m in node.with_members)
         return node.operator in self.together and only_length and is_plain
 
     def of(self, member: ast.BehaviorMember) -> Iterator[_Claim]:
-        """Yield what those actions control."""
+        """Yield the slots that those actions control."""
         match member:
             case ast.Composition(operator=Op.SERIAL):
                 first = next((m for m in member.members if not self._takes_no_time(m)), None)

@@ -1,4 +1,4 @@
-"""Times that are valid, but hardly what was meant (§7.3.10)."""
+"""Times that are valid, but probably unintended (§7.3.10)."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from osc2tx.semantics import SemanticModel
 from osc2tx.semantics.units import to_si
 from osc2tx.syntax import ast
 
-STEP = 0.05  # s, the length of a step where the run does not say another
+STEP = 0.05  # s, the default step size of a run
 
 
 def report_times(model: SemanticModel, nodes: NodesByKind, sink: DiagnosticSink) -> None:
@@ -18,8 +18,8 @@ def report_times(model: SemanticModel, nodes: NodesByKind, sink: DiagnosticSink)
             sink.report(
                 "OSC441",
                 reaction.event.span,
-                "this is true from that time on: `on` reacts at every instant of the run",
-                help="to do it once write `wait elapsed(…)` and what follows inside `do`",
+                "this is true from that time on: `on` reacts at every later instant of the run",
+                help="to react once, write `wait elapsed(…)` and the reaction inside `do`",
             )
     for wait in nodes.of(ast.WaitDirective):
         _report_short(model, _elapsed(wait.event), sink)
@@ -42,7 +42,7 @@ def _report_short(
         sink.report(
             "OSC440",
             duration.span,
-            f"{seconds:g} s are less than a step of the run, which is {STEP:g} s by default:"
-            " nothing can be seen in between",
+            f"{seconds:g} s is shorter than the step of a run, which is {STEP:g} s by default:"
+            " the wait has no effect",
             help=f"wait longer, or run it with `--dt {seconds:g}`",
         )

@@ -1,7 +1,7 @@
-"""Trees that no run could make: invocations of invocations multiply their members.
+"""Trees that are too large for a run: nested invocations multiply members.
 
-A scenario that invokes another one twice holds its members twice, so twenty scenarios that invoke
-one another make a million of them. What is counted needs no tree: each scenario is counted once.
+A scenario that invokes another one twice has its members twice, so a chain of twenty scenarios has
+a million members. The count needs no tree: each scenario is counted once.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from osc2tx_shared.classes import dataclass
 Behavior: TypeAlias = sym.ScenarioSymbol | sym.ActionSymbol
 
 MOST_MEMBERS = 100_000
-"""Members of a tree: what runs in the memory and the patience that there is."""
+"""Maximum number of members of a tree that is practical to run."""
 
 MOST_LEVELS = 300
 """Members in each other, with those of invoked scenarios: a run walks them by recursion."""
@@ -46,10 +46,10 @@ class _Size:
 
     Attributes:
         place: Its `do`.
-        members: Those in its text.
-        levels: Those of its text.
+        members: Number of members in its text.
+        levels: Number of levels in its text.
         invoked: The behaviors that it invokes.
-        all_members: With those of what it invokes; `None` until they are counted.
+        all_members: Including those of invoked behaviors; `None` until they are counted.
         all_levels: Likewise.
     """
 
@@ -85,7 +85,7 @@ def report_tree_sizes(model: SemanticModel, sink: DiagnosticSink) -> None:
 
 
 def _size_of(model: SemanticModel, behavior: Behavior, behaviors: Container[Behavior]) -> _Size:
-    """Measure the text of a behavior; what the library has is one member."""
+    """Measure the text of a behavior; an action of the library is one member."""
     directives = do_directives(behavior)
     size = _Size(directives[0].span if directives else None, 0, 1, {})
     pending = [(each.member, 1) for each in directives]
@@ -112,7 +112,7 @@ def _size_of(model: SemanticModel, behavior: Behavior, behaviors: Container[Beha
 
 
 def _inner_first(sizes: Mapping[Behavior, _Size], start: Behavior) -> Iterator[Behavior]:
-    """Yield what is not counted yet, after what it invokes; a circle is cut where it closes."""
+    """Yield uncounted behaviors, each after those that it invokes; a cycle ends where it closes."""
     pending = [(start, False)]
     entered: set[Behavior] = set()
     while pending:

@@ -46,10 +46,10 @@ class Usage:
         invoked: Behaviors that are invoked.
         waits: Event specifications of the root file.
         emits: `emit`s of the root file.
-        settings: What gives values to fields and parameters: declarations, calls, invocations.
+        settings: Declarations, calls and invocations that set fields and parameters.
         divisions: Divisions and remainders.
         demanded: Constraints and defaults.
-        evaluated: Constraints and defaults of scenarios: they give values to an instance.
+        evaluated: Constraints and defaults of scenarios, which set values of an instance.
         casts: Conversions outside of constraints.
         declared: Events and the types that declare them, by the type at the top of the inheritance
             and their name.
@@ -182,7 +182,7 @@ def _report_waits(model: SemanticModel, usage: Usage, sink: DiagnosticSink) -> N
             wait.event.span,
             f"nothing emits event `{symbol.name}`; it must come from outside",
             labels=[Label(symbol.span, "declared here, without a specification")],
-            help=f"emit it, or give it to the run: `--signal {symbol.name}@1s`",
+            help=f"emit it, or pass it to the run: `--signal {symbol.name}@1s`",
         )
 
 
@@ -258,6 +258,6 @@ def _report_field(
     match field.type:
         case types.ActorType(symbol=actor):
             if not is_library_actor(actor, "map"):  # the road is there for all
-                sink.report("OSC433", field.span, f"actor `{field.name}` takes no part")
+                sink.report("OSC433", field.span, f"actor `{field.name}` is not used")
         case _:
             sink.report("OSC437", field.span, f"parameter `{field.name}` is never read")

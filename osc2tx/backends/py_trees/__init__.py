@@ -3,10 +3,10 @@
 `support` rejects constructs that the runtime does not have; `emitter` is the entry for the rest.
 `sharing` decides which classes come from the modules of imported files, `own_names` names the
 others. `scenarios`, `behaviors`, `calls` and `expressions` turn the IR into the view models of
-`view`, with names from `naming` and fragments from `code` that scenario text cannot break out of;
+`view`, with names from `naming` and fragments from `code`, which escape scenario text;
 `uses` collects imports, `runtime_api` has the facts about the runtime. The templates only place
-view models, in black's `layout`; where that may differ, `formatting` calls black. `source_map`
-holds the lines that the module does not cite itself.
+view models, in black's `layout`; where black may differ, `formatting` calls it. `source_map` holds
+the lines that the module does not cite itself.
 """
 
 from __future__ import annotations

@@ -44,7 +44,7 @@ class GivenArguments:
         return None if found is None else found[1]
 
     def span(self, name: str | None, call: Span) -> Span:
-        """Return where an argument stands, or the call where it does not."""
+        """Return the span of an argument, or of the call if the argument is omitted."""
         argument = None if name is None else self._given[name]
         return argument.span if isinstance(argument, ir.Argument) else call
 

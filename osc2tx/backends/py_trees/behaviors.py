@@ -1,7 +1,7 @@
 """The behavior tree as methods that return nested constructor calls.
 
-The root gets a method, and so does every composition that the IR calls a phase; the others
-stand inline, nested as they are in the source.
+The root gets a method, and so does every composition that the IR calls a phase; the others are
+inline, nested as in the source.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ class BehaviorTreeBuilder:
         calls: Writer of calls.
         phases: Names of the methods for parts of the tree.
         classes: Names of the module's scenario classes, by key of the scenario.
-        actions: The actions of the user's own.
+        actions: The user-defined actions.
     """
 
     def __init__(
@@ -97,7 +97,7 @@ class BehaviorTreeBuilder:
         self._written.insert(index, method)
 
     def _member(self, node: ir.Behavior) -> ArgumentView:
-        """Write a member of a composition: in place, or as the call of its own method."""
+        """Write a member of a composition: inline, or as the call of its method."""
         name = self._phases.get(node)
         if name is None:
             return self._node(node)
@@ -246,7 +246,7 @@ def docstring_of(lines: Sequence[str]) -> str:
 
 
 RULES = "-=*#~_ "
-"""What rules and frames in comments are made of."""
+"""The characters of rules and frames in comments."""
 DOC_WIDTH = LINE_LENGTH - 2 * INDENT - 2 * len('"""')
 
 

@@ -12,13 +12,13 @@ from osc2tx.catalogue import ActionEntry, Catalogue, ModifierEntry, ObjectTables
 from osc2tx.diagnostics import DiagnosticSink, Span
 from osc2tx_shared.rules import Rule, violations
 
-# What no world has more of, either way, in SI: light is as fast, and no road leads further.
+# Limits of quantities in worlds, in SI units: the speed of light, lengths of roads.
 LARGEST = {"speed": 299_792_458.0, "acceleration": 1e9, "length": 1e9}
 
-# How the standard says what modifiers of forks of ScenarioRunner say, which nothing carries out.
+# Standard forms of modifiers of forks of ScenarioRunner, which the runtime does not support.
 INSTEAD = {
     "follow_trajectory": "use the action of that name: `….follow_trajectory(absolute: …)`",
-    "road_action": "say it with `speed(…)`, `lane(…)` and, at a junction, a route for `along(…)`",
+    "road_action": "use `speed(…)`, `lane(…)` and, at a junction, a route for `along(…)`",
     "set_color": "set the field `color` instead: `keep(it.color == …)`",
 }
 
@@ -76,8 +76,8 @@ class CallCheck:
             self._sink.report(
                 "OSC507",
                 node.span,
-                f"`{key}` is abstract: it stands for the actions that derive from it",
-                help="call one of these, such as `drive`",
+                f"`{key}` is abstract: only actions that derive from it have a behavior",
+                help="use one of these, such as `drive`",
             )
             return
         self._acting(node)
@@ -97,7 +97,7 @@ class CallCheck:
                 self._sink.report(
                     "OSC509",
                     argument.span,
-                    f"`{argument.parameter}` is a word of the runtime's own here; rename it",
+                    f"`{argument.parameter}` is a reserved name of the runtime here; rename it",
                 )
         self._acting(node)
         self._expressions(argument.value for argument in node.arguments)
@@ -124,7 +124,7 @@ class CallCheck:
                     self._sink.report(
                         "OSC508",
                         modifier.span,
-                        f"action `{key}`{said} cannot honour modifier `{modifier.name}`",
+                        f"action `{key}`{said} does not support modifier `{modifier.name}`",
                         help="it controls the same direction of motion itself",
                     )
 
@@ -135,7 +135,7 @@ class CallCheck:
             self._sink.report(
                 "OSC508",
                 modifier.span,
-                f"action `{action}` cannot honour modifier `{modifier.name}` yet",
+                f"action `{action}` does not support modifier `{modifier.name}` yet",
                 help=INSTEAD.get(modifier.name),
             )
             return
@@ -143,7 +143,7 @@ class CallCheck:
             self._sink.report(
                 "OSC509",
                 modifier.span,
-                f"modifier `{modifier.name}` cannot be asked for `at: end` yet",
+                f"modifier `{modifier.name}` does not support `at: end` yet",
             )
         self._modifier_arguments(modifier, entry)
         self._shape(modifier, entry)
@@ -219,7 +219,7 @@ class CallCheck:
             self._sink.report(
                 "OSC509",
                 node.span,
-                f"action `{action}` needs {names}, which nothing states",
+                f"action `{action}` requires {names}",
                 help=f"write `{missing[0]}: …` among its arguments",
             )
 

@@ -52,11 +52,11 @@ class CallWriter:
         return CallView(name_expression(self.use_name(name)), arguments)
 
     def modifiers(self, calls: Iterable[ir.ModifierCall], depth: int = 0) -> Iterator[ArgumentView]:
-        """Write modifiers; those that one of the user's own stands for as a call of its function.
+        """Write modifiers; those of a user-defined modifier as a call of its function.
 
         Args:
             calls: The modifiers.
-            depth: In how many applications they stand that are written out.
+            depth: Number of surrounding applications that are written out.
         """
         for application, modifier, parts in self._functions.groups(calls, depth):
             if application is None:
@@ -69,7 +69,7 @@ class CallWriter:
     def _own_modifier(
         self, modifier: ir.UserModifier, application: ir.Application, first: ir.ModifierCall
     ) -> ArgumentView:
-        """Write a call of a function; the comments in its body stand there."""
+        """Write a call of a function; the comments in its body are at the function."""
         arguments = self._functions.arguments(modifier, application)
         function = PyExpr(f"*{self._functions.name(modifier)}", Level.ATOM)
         written = tuple(code(self.expressions.write(value), str(name)) for name, value in arguments)
@@ -130,7 +130,7 @@ class CallWriter:
         return tuple(self.occurrence(trigger) for trigger in triggers)
 
     def occurrence(self, trigger: ir.Trigger) -> ArgumentView:
-        """Write an event specification as one argument; `@e if c` becomes an event of its own."""
+        """Write an event specification as one argument; `@e if c` becomes an event object."""
         arguments = self.trigger(trigger)
         if len(arguments) == 1:
             return arguments[0]

@@ -59,7 +59,7 @@ class CombinationCheck:
         self._lineages = lineages
 
     def check(self, node: ir.Invoke, *, physical: bool) -> None:
-        """Check an action that moves as its modifiers say."""
+        """Check an action whose modifiers define its motion."""
         for clash in self._clashes(node):
             if clash.kind != "twice":
                 self._report(clash)
@@ -68,7 +68,7 @@ class CombinationCheck:
             self._jumping(node)
 
     def twice(self, node: ir.Invoke) -> None:
-        """Report modifiers that stand there twice, both for the start or both for later."""
+        """Report modifiers that are applied twice, both to the start or both to the phase."""
         for clash in self._clashes(node):
             if clash.kind == "twice":
                 self._report(clash)
@@ -90,12 +90,12 @@ class CombinationCheck:
                     help="give one of them",
                 )
             case "twice":
-                text = f"modifier `{last.name}` stands here twice"
+                text = f"modifier `{last.name}` is applied twice here"
                 labels = [Label(clash.calls[0].node.span, "given here already")]
                 self._sink.report("OSC508", last.span, text, labels=labels)
             case "no start":
-                text = f"modifier `{last.name}` says nothing about a start"
-                self._sink.report("OSC509", last.span, text, help="leave `at: start` out")
+                text = f"modifier `{last.name}` does not apply to a start"
+                self._sink.report("OSC509", last.span, text, help="omit `at: start`")
             case "contradiction" | "rule":
                 span = clash.calls[-1].given.span(clash.parameter, last.span)
                 self._sink.report("OSC513", span, clash.text)

@@ -15,7 +15,7 @@ def comments(lines: tuple[str, ...]) -> tuple[PyComment, ...]:
 
 
 def _without_end(lines: tuple[str, ...]) -> tuple[str, ...]:
-    """Return comment lines without the empty one that parts them from what is below."""
+    """Return comment lines without the empty one at their end."""
     return lines[:-1] if lines and not lines[-1] else lines
 
 
@@ -28,7 +28,7 @@ class Around(TypedDict):
 
 
 def around(lines: tuple[str, ...]) -> Around:
-    """Return comment lines of a statement as those above, behind and below what it becomes."""
+    """Return comment lines of a statement as those above, behind and below its code."""
     below = [line for line in lines if isinstance(line, ir.CommentBelow)]
     others = [line for line in lines if not isinstance(line, ir.CommentBelow)]
     trailing = None
@@ -49,7 +49,7 @@ class Beside(TypedDict):
 
 
 def beside(lines: tuple[str, ...], line: str) -> Beside:
-    """Return comment lines of what is written on one line; all above where they do not fit."""
+    """Return comment lines of code on one line; all above it where they do not fit."""
     found = around(lines)
     trailing = found["trailing"]
     whole = f"{line}  {trailing}"

@@ -1,4 +1,4 @@
-"""Declarations of scenario classes: cast, values and events, and what is left of inherited ones."""
+"""Declarations of scenario classes: cast, values and events, and narrowed inherited ones."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class DeclarationWriter:
 
     Args:
         scenario: The scenario.
-        members: What its class has, and how it is called.
+        members: The members of its class, and its name.
         calls: Writer of calls.
         types: All types that the module knows.
     """
@@ -63,7 +63,7 @@ class DeclarationWriter:
         )
 
     def narrowed(self) -> tuple[StatementView, ...]:
-        """Write what constraints leave of declarations of the base, before it declares them."""
+        """Write the narrowed declarations of the base, before the base declares them."""
         pairs = [(there, here) for there, here in self._own.narrowed if not _is_assigned(there)]
         early = [(there, here) for there, here in pairs if here.name in self._own.early]
         return (
@@ -94,7 +94,7 @@ class DeclarationWriter:
         )
 
     def _narrowing(self, declaration: ir.Declaration, there: ir.Declaration) -> ArgumentView:
-        """Write the call that narrows a declaration; what reads the base is computed by it."""
+        """Write the call that narrows a declaration; it computes values that depend on the base."""
         name = code(literal(ir.setting_name(declaration.name)))
         arguments: tuple[ArgumentView, ...]
         read: list[ir.Expression]
@@ -146,7 +146,7 @@ class DeclarationWriter:
         )
 
     def _stands_apart(self, declaration: ir.Declaration) -> bool:
-        """Whether a blank line stands above a declaration in its source, or none of its source."""
+        """Whether a blank line is above a declaration in its source, or above all of its source."""
         source, number = declaration.span.source, declaration.span.line - 1
         before, self._source = self._source, source
         if source is not before or declaration is self._first_implicit_event:
@@ -189,7 +189,7 @@ class DeclarationWriter:
                 return ArgumentView(call=CallView(class_, arguments))
 
     def _value_of(self, declared: ir.Actor | ir.Struct) -> ArgumentView:
-        """Write an object: what it equals, or the call that makes it."""
+        """Write an object: the equal object, or the call that creates it."""
         if isinstance(declared, ir.Struct) and declared.value is not None:
             return code(self._calls.expressions.write(declared.value))
         return self._objects.write(declared.lineage, declared.values)
@@ -265,7 +265,7 @@ class DeclarationWriter:
         return ArgumentView(call=CallView(_self(method), (name, *self._choice(parameter))))
 
     def _choice(self, parameter: ir.Parameter) -> tuple[ArgumentView, ...]:
-        """Write what a parameter may be: its value, or type or default, domain and unit."""
+        """Write the content of a parameter: its value, or type or default, domain and unit."""
         write = self._calls.expressions.write
         if parameter.value is not None and parameter.is_fixed:
             return (self._fixed(parameter.type, code(write(parameter.value))),)
@@ -292,7 +292,7 @@ def _is_assigned(declaration: ir.Declaration) -> bool:
 
 
 def _lines_besides(here: ir.Declaration, there: ir.Declaration) -> tuple[str, ...]:
-    """Return the comment lines of what narrows a declaration."""
+    """Return the comment lines of the constraints that narrow a declaration."""
     return tuple(line for line in here.comments if line not in there.comments)
 
 

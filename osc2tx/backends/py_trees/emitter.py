@@ -63,7 +63,7 @@ class GeneratedModule:
         stem: File name of the module without `.py`.
         python: Text of the module.
         source_map: Text of the sidecar map, JSON.
-        coverage_model: Text of what its scenarios sample, JSON; None if they sample nothing.
+        coverage_model: Text of the coverage model, JSON; None if its scenarios sample nothing.
     """
 
     source: str
@@ -229,7 +229,7 @@ def own_scenarios(module: ir.Module) -> list[ir.Scenario]:
 
 
 def main_scenario(module: ir.Module) -> ir.Scenario | None:
-    """Return the scenario of the file that no other one of it invokes, if there is just one.
+    """Return the only scenario of the file that no other one of it invokes, if there is one.
 
     One that is called `top` or `main` needs no such sign.
     """
@@ -257,7 +257,7 @@ def _is_given(declaration: ir.Declaration) -> bool:
 
 
 def _policies(module: ir.Module) -> Iterator[str]:
-    """Yield the settings that decide what its trees mean, where they have such members."""
+    """Yield the settings that decide the meaning of its trees, where they have such members."""
     nodes = [n for each in own_scenarios(module) for n in ir.walk_behaviors(each.body)]
     if any(isinstance(node, ir.OneOf) for node in nodes):
         yield ONE_OF_POLICIES[module.one_of]

@@ -13,7 +13,7 @@ from osc2tx.diagnostics import InternalCompilerError
 LINE_LENGTH = 100
 INDENT = 4
 _OTHERWISE = re.compile(r"""['\\]|,[)\]}]|:\S""")
-"""What black may write otherwise: quotes, escapes, commas before a bracket, slices."""
+"""Text that black may change: quotes, escapes, commas before a bracket, slices."""
 _PARTS = re.compile(r" (?:[-+*/%<>]|//|[<>=!]=|and|or|in|is|if|for) |\)\.")
 """Where black breaks an argument beside a comment, however short it is."""
 
@@ -26,11 +26,11 @@ def is_plain(text: str) -> bool:
 def format_module(text: str) -> str:
     """Return a module of the templates in black's style.
 
-    They write most statements as black does (`layout`). It is asked for the others only, for it
-    takes longer than all else of a compilation.
+    The templates write most statements as black does (`layout`). Only the others are formatted by
+    black, which takes longer than the rest of a compilation.
 
     Raises:
-        InternalCompilerError: The templates made something that is not Python.
+        InternalCompilerError: The output of the templates is not Python.
     """
     try:
         tree = ast.parse(text)
@@ -46,12 +46,12 @@ def format_module(text: str) -> str:
 
 
 class _Part(NamedTuple):
-    """Lines that black is asked for.
+    """Lines that black formats.
 
     Attributes:
         first: The first line, from 0 on.
         last: The line behind the last one.
-        column: Where they begin.
+        column: Their column.
         is_argument: They are not a statement, but one of several arguments, with its comma.
     """
 
@@ -62,7 +62,7 @@ class _Part(NamedTuple):
 
 
 def _parts(statement: ast.stmt, lines: Sequence[str]) -> list[_Part]:
-    """Return what black is asked for of a statement: doubtful arguments, or else all of it.
+    """Return the parts of a statement that black formats: uncertain arguments, or all of it.
 
     Black lays each of several arguments out by itself, once their call has several lines.
     """
@@ -146,13 +146,13 @@ def _is_comment(line: str) -> bool:
 
 @lru_cache(maxsize=1024)  # many scenarios of a project have the same conditions
 def _argument_in_style(lines: tuple[str, ...], column: int) -> list[str]:
-    """Return what black makes of an argument beside another one."""
+    """Return an argument beside another one, formatted by black."""
     outer, inner = " " * (column - INDENT), " " * column
     return _in_style((f"{outer}_(", f"{inner}_,", *lines, f"{outer})"), column - INDENT)[2:-1]
 
 
 def _in_style(lines: tuple[str, ...], column: int) -> list[str]:
-    """Return what black makes of the lines of a statement, in classes down to its column."""
+    """Return the lines of a statement, formatted by black inside classes down to its column."""
     from black import format_str
     from black.mode import Mode, TargetVersion
 

@@ -1,6 +1,6 @@
 """Statements and calls in black's layout: one line where they fit, else one for each argument.
 
-What black might lay out otherwise stays on one line; `formatting` has black look at it.
+Statements that black may lay out differently stay on one line; `formatting` passes them to black.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ def returned(view: ArgumentView, column: int) -> str:
 
 
 def _argument(view: ArgumentView, column: int, start: str, end: str) -> str:
-    """Lay an argument out that begins in a column, between what else is on its lines."""
+    """Lay out an argument that begins in a column, between the other text on its lines."""
     if view.keyword:
         start = f"{start}{view.keyword}="
     if view.call is None:

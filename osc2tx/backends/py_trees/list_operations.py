@@ -45,7 +45,7 @@ def list_operation(node: ir.ListOperation, write: Write) -> PyExpr:
 
 
 def _elements(node: ir.ListOperation, write: Write) -> str:
-    """Write `for it in values`; a filter below needs no list of its own."""
+    """Write `for it in values`; a filter below needs no list."""
     base = node.base
     name = element_name(node.depth)
     if (

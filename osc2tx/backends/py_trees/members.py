@@ -1,7 +1,6 @@
-"""What each scenario class has itself, and the names of its members.
+"""The own members of each scenario class, and their names.
 
-A class inherits from that of the scenario's base what the scenario inherits, by the names that it
-has there.
+A class inherits the members that the scenario inherits, with their names in the base class.
 """
 
 from __future__ import annotations
@@ -20,8 +19,8 @@ from osc2tx.backends.py_trees.naming import (
 from osc2tx.backends.py_trees.type_methods import TypeMethods
 from osc2tx_shared.classes import dataclass
 
-# Compositions nested deeper than this inside one method get a method of their own: far below
-# CPython's limits (200 brackets, 99 indents), and about what a reader can follow.
+# Compositions nested deeper than this inside one method get a method: far below CPython's limits
+# (200 brackets, 99 indents), and readable.
 MAX_INLINE_DEPTH = 6
 
 RESERVED = (*SCENARIO_ATTRIBUTES, "Event")  # which classes inside of that of a scenario inherit
@@ -38,11 +37,11 @@ class Members:
 
     Attributes:
         base: The scenario that its class inherits from; `None` if that is the runtime's.
-        own: What it adds to its base; without one, all that it has.
+        own: The members that it adds to its base; without a base, all members.
         names: Names of all its members.
         constraints: Its own constraints below those of its bases, as they are checked.
         phases: Names of the methods for the parts of its own behavior.
-        phase_names: Names of those of all parts, also of what it inherits.
+        phase_names: Names of those of all parts, including inherited ones.
     """
 
     base: ir.AbstractScenario | None
@@ -58,7 +57,7 @@ def members_of(module: ir.Module, type_methods: TypeMethods) -> dict[str, Member
 
     Args:
         module: The module.
-        type_methods: The methods that stand in the classes of types.
+        type_methods: The methods in the classes of types.
     """
     scenarios: dict[str, ir.AbstractScenario] = {}
     found: dict[str, Members] = {}

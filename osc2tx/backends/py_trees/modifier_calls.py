@@ -13,7 +13,8 @@ from osc2tx.backends.py_trees.naming import NameTable, identifier
 Group: TypeAlias = (
     "tuple[ir.Application | None, ir.UserModifier | None, tuple[ir.ModifierCall, ...]]"
 )
-"""Neighbors that one application stands for, with it, and its modifier if that says just them."""
+"""Consecutive modifiers of one application, with it, and with its modifier if they are its whole
+result."""
 
 
 class ModifierCalls:
@@ -46,7 +47,7 @@ class ModifierCalls:
         return modifier if ir.means_same(expected, tuple(calls)) else None
 
     def groups(self, calls: Iterable[ir.ModifierCall], depth: int) -> Iterator[Group]:
-        """Yield calls together that one application stands for."""
+        """Yield the calls of one application together."""
         for application, group in groupby(calls, lambda call: call.application(depth)):
             parts = tuple(group)
             fitting = None if application is None else self.fitting(application, parts)

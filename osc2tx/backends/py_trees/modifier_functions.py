@@ -1,9 +1,9 @@
-"""Modifiers of the user's own, as functions of the module.
+"""User-defined modifiers, as functions of the module.
 
-Where one is applied, the module calls its function if its result is exactly the meaning of the
-program there. Else the modifiers of the library that it stands for are written: some of them may
-state where the actor starts, which is written in `placement`, and a function takes no values that
-change while the scenario runs. A function that its own file could only spell out is not written.
+An application is a call of the function if its result is exactly the meaning of the program there.
+Otherwise the modifiers of the library are written out: some of them may state the start of the
+actor, which is written in `placement`, and a function takes no values that change during the run. A
+function that its own file never calls is not written.
 
 The type of a function names the modifiers that it returns, so that a type checker knows which
 actions take them.

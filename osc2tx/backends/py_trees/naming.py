@@ -14,7 +14,7 @@ from osc2tx.support.paths import is_portable
 from osc2tx.support.python_modules import is_taken
 from osc2tx_shared.classes import dataclass
 
-# What `Scenario` of the runtime library uses itself; a test compares with the real class.
+# Names that `Scenario` of the runtime library uses; a test compares with the class.
 SCENARIO_ATTRIBUTES = frozenset(
     {
         "actors",
@@ -70,7 +70,7 @@ SCENARIO_ATTRIBUTES = frozenset(
 )
 
 
-# What `Event` of the runtime library has itself; a test compares with the real class.
+# Names that `Event` of the runtime library uses; a test compares with the class.
 EVENT_ATTRIBUTES = frozenset(
     {
         "alias",
@@ -166,7 +166,7 @@ class NameTable:
         return self._names[key]
 
     def __contains__(self, key: str) -> bool:
-        """Tell whether a name is reserved for `key`."""
+        """Return whether a name is reserved for `key`."""
         return key in self._names
 
 

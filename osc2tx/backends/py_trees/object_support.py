@@ -86,7 +86,7 @@ class ObjectCheck:
                     "OSC502",
                     value.span,
                     f"the runtime cannot fix `{'.'.join(value.path)}` of a `{object_.lineage[0]}`",
-                    help="it is as the runtime makes it: read it, or leave it out",
+                    help="the runtime determines it: read it, or omit the constraint",
                 )
         if kind is not None and classes is STRUCT_CLASSES:
             self._needed(object_, kind)
@@ -122,6 +122,6 @@ class ObjectCheck:
             self._sink.report(
                 "OSC501",
                 object_.span,
-                f"`{object_.name}` does not say its {missing}",
+                f"`{object_.name}` does not state its {missing}",
                 help="give it a whole value, or `keep(it.member == value)` for each member",
             )

@@ -33,7 +33,7 @@ class ObjectWriter:
         self._types = types
 
     def write(self, lineage: tuple[str, ...], values: tuple[ir.FieldValue, ...]) -> ArgumentView:
-        """Write the constructor of an object; members that are objects too stand inside."""
+        """Write the constructor of an object; members that are objects are inside."""
         arguments: dict[str, ArgumentView] = {}
         owners = {field.name: owner for owner, field in self._types.owned_fields(lineage)}
         keyed = [replace(v, path=constructor_path(lineage, v.path)) for v in values]
@@ -61,7 +61,7 @@ class ObjectWriter:
         return ArgumentView(call=CallView(class_, tuple(written)))
 
     def _plain(self, lineage: tuple[str, ...], value: ir.FieldValue) -> ArgumentView:
-        """Write a value that no constructor makes, or one that says what sort of text it is."""
+        """Write a value without a constructor, or with the constructor of its kind of string."""
         written = self._expressions.write(value.value)
         above = comments(value.comments)
         class_ = text_class(lineage, value.path[0])
@@ -85,7 +85,7 @@ def write_elements(
     values: Sequence[ir.FieldValue],
     write: Callable[[ir.Expression], PyExpr],
 ) -> ArgumentView:
-    """Write what constraints fix about elements, by their numbers.
+    """Write the values that constraints fix of elements, by their numbers.
 
     Args:
         class_: Class of the elements; `None` if they are plain values.

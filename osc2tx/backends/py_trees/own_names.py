@@ -1,7 +1,7 @@
 """Names of the definitions of a module, and keys for them.
 
-Definitions of its own file are named first, by its text alone: whatever it imports or is imported
-by, its classes have the same names.
+Definitions of its own file are named first, by its text alone: its classes have the same names with
+any imports.
 """
 
 from __future__ import annotations
@@ -25,7 +25,8 @@ Declared: TypeAlias = (
     ir.AbstractScenario | ir.UserType | ir.UserEnum | ir.UserAction | ir.UserModifier
 )
 
-# Names from the runtime, from Python and of the module; none of its own names must hide them.
+# Names from the runtime, from Python and of the module; the names of definitions must not hide
+# them.
 RUNTIME_CLASSES = frozenset(
     {
         *ACTOR_CLASSES.values(),
@@ -110,7 +111,7 @@ ROOT_FUNCTION = "create_root"
 
 
 def key_of(declared: Declared) -> str:
-    """Return what tells a declaration apart from all others of a module."""
+    """Return the key of a declaration, which is unique in a module."""
     match declared:
         case ir.AbstractScenario() | ir.UserModifier():
             return declared.key

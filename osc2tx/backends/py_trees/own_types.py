@@ -57,7 +57,7 @@ class _TypeWriter:
             self._uses.standard("dataclasses", "dataclass")
         others, inherited = PyName("Any"), tuple[FieldView, ...]()
         several = is_object and own.is_of_library and bool(own.bases)
-        if several:  # each base takes keywords of its own, and hands on what it does not know
+        if several:  # each base takes its own keywords, and passes the others on
             self._uses.standard("typing", "Any")
         elif is_object and own.all_fields:
             others, inherited = self._other_fields()
@@ -81,7 +81,7 @@ class _TypeWriter:
         )
 
     def _other_fields(self) -> tuple[PyName, tuple[FieldView, ...]]:
-        """Return what types the keywords of the bases: a type of the runtime, and own fields."""
+        """Return the types of the keywords of the bases: a type of the runtime, and own fields."""
         lineage = self._table.lineage(self._own.name)
         known = self._table.fields_type(lineage)
         if known is None:

@@ -1,6 +1,6 @@
-"""The classes of the runtime library that generated modules name, and how these are made.
+"""The classes of the runtime library that generated modules name, and their constructors.
 
-The compiler does not import the runtime; a test compares these tables with the real thing.
+The compiler does not import the runtime; a test compares these tables with the runtime.
 """
 
 from __future__ import annotations
@@ -151,7 +151,7 @@ LIST_ELEMENTS: Mapping[tuple[str, str], str | None] = {
     ("vehicle", "axles"): "axle",
 }
 
-# Python types of plain values, by what sort of value they are.
+# Python types of simple values, by their kind.
 ANNOTATIONS = {"bool": "bool", "int": "int", "float": "float", "quantity": "float"} | {
     "string": "str"
 }

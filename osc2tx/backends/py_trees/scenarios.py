@@ -1,4 +1,4 @@
-"""Scenario classes: what their parts are written by, initial placement, constraints, methods."""
+"""Scenario classes: writers of their parts, initial placement, constraints, methods."""
 
 from __future__ import annotations
 
@@ -56,16 +56,16 @@ class ScenarioWriter:
 
     Args:
         scenario: The scenario.
-        members: What the classes of the module have, by key of the scenario.
+        members: The members of the classes of the module, by key of the scenario.
         one_of: Policy of `one_of` in this module.
-        first_come: Durations and `until` end with whichever comes first.
+        first_come: The first of duration and `until` ends a member.
         is_main: It is the default scenario of the module.
         classes: Names of the module's scenario classes, by key of the scenario.
         types: All types that the module knows.
         type_methods: The methods of types that are in their classes.
-        functions: The modifiers of the user's own that the module has as functions.
+        functions: The user-defined modifiers that are functions of the module.
         uses: Collects the imports of the module.
-        actions: The actions of the user's own.
+        actions: The user-defined actions.
     """
 
     def __init__(
@@ -183,7 +183,7 @@ class ScenarioWriter:
         )
 
     def _constraints(self) -> tuple[StatementView, ...]:
-        """Write what must hold between the values, below them."""
+        """Write the checks of the values, below them."""
         write = self._calls.expressions.write
         statements = []
         for index, constraint in enumerate(self._own.constraints):
@@ -213,7 +213,7 @@ class ScenarioWriter:
         )
 
     def _externals(self) -> tuple[StatementView, ...]:
-        """Write the methods that are code of the user: the runtime asks whether they may run."""
+        """Write the external methods, for which the runtime requires permission."""
         statements = []
         for method in self._methods:
             if method.external is None:

@@ -55,9 +55,9 @@ class Sibling:
     """The module of an imported file, as that file alone makes it.
 
     Attributes:
-        name: What to import it as.
-        declared: What its program declares.
-        sharing: Where it has its own classes from.
+        name: Its name in imports.
+        declared: The declarations of its program.
+        sharing: The origins of its classes.
     """
 
     name: str
@@ -69,9 +69,9 @@ def share(ours: Declarations, siblings: Mapping[str, Sibling], apart: Mapping[st
     """Return the imports of a module.
 
     Args:
-        ours: What its program declares.
+        ours: The declarations of its program.
         siblings: The modules that it may import, by the names of their sources.
-        apart: Why it may import none of the other sources.
+        apart: The reason why it cannot import the other sources.
     """
     foreign = [key for key, part in ours.parts.items() if not is_own(part, ours.module)]
     shared = {

@@ -47,7 +47,7 @@ class ScenarioMap:
         return (span.line, span.column) if span.source.name == self.source else None
 
     def add_nodes(self, body: ir.Behavior) -> None:
-        """Note the places of the nodes of a tree; what ends a member is a node around it."""
+        """Record the positions of the nodes of a tree; the end of a member is a node around it."""
         pending = [body]
         while pending:
             node = pending.pop()

@@ -22,7 +22,7 @@ from osc2tx.support.python_modules import is_taken
 # CPython gives up on expressions of about 3,000 parts; one of this length is unreadable anyway.
 MAX_PARTS = 1000
 
-# Names that `Scenario.invoke` takes for itself, so that parameters cannot be handed in by them.
+# Names that `Scenario.invoke` uses, so parameters cannot be passed by them.
 INVOKE_KEYWORDS = frozenset({"caller", "known_as", "self", "settings"})
 
 
@@ -47,7 +47,9 @@ def check_name(module: ir.Module, sink: DiagnosticSink) -> None:
     own = next((d.span.source for d in declarations(module) if is_own(d, module)), None)
     if own is None or not has_module(module) or not is_taken(stem):
         return
-    message = f"the module is called `{module_name(module.source)}`: Python has a module `{stem}`"
+    message = (
+        f"the module has the name `{module_name(module.source)}`: Python has a module `{stem}`"
+    )
     sink.report("OSC517", Span(own, 0, 0), message, help="rename the file")
 
 
@@ -172,7 +174,7 @@ class _SupportCheck:
                 self.sink.report(
                     "OSC509",
                     argument.span,
-                    f"`{argument.parameter}` is a word of the runtime's own here; rename it",
+                    f"`{argument.parameter}` is a reserved name of the runtime here; rename it",
                 )
 
     def limits(self, duration: ir.Expression | None, until: tuple[ir.Trigger, ...]) -> None:
@@ -276,7 +278,7 @@ class _SupportCheck:
                 pass  # everything else is plain Python
 
     def said(self, part: ir.Attribute, base: ir.Expression) -> None:
-        """Report a member of an actor that nothing says: no catalogue knows it."""
+        """Report an unstated member of an actor that no catalogue has."""
         name = base.name if isinstance(base, ir.FieldRef) else None
         actors = (d for d in self.declarations if isinstance(d, ir.Actor))
         actor = next((each for each in actors if each.name == name), None)
@@ -284,7 +286,7 @@ class _SupportCheck:
             self.sink.report(
                 "OSC503",
                 part.span,
-                f"nothing says the `{part.name}` of `{name}`",
+                f"no constraint states the `{part.name}` of `{name}`",
                 help=f"`keep({name}.{part.name} == value)`",
             )
 

@@ -41,7 +41,7 @@ class TypeMethods:
                 del self._methods[name]
 
     def __contains__(self, name: str) -> bool:
-        """Tell whether a method of a type, `limits.middle`, is in its class."""
+        """Return whether a method of a type, `limits.middle`, is in its class."""
         return name in self._methods
 
     def of(self, type_: str) -> Iterator[tuple[str, ir.Method]]:

@@ -1,4 +1,4 @@
-"""The types that a module knows: classes of its own, and those of the runtime."""
+"""The types that a module knows: its own classes, and those of the runtime."""
 
 from __future__ import annotations
 
@@ -134,7 +134,7 @@ class TypeTable:
 
         Args:
             type_: The type.
-            later: Own types whose classes are not defined yet where it stands.
+            later: Own types whose classes are defined below it.
         """
         if type_ is None:
             return PyExpr("object", Level.ATOM)

@@ -23,7 +23,7 @@ class Uses:
     """
 
     def __init__(self, names: NameTable) -> None:
-        """Start with what every module needs."""
+        """Start with the imports of every module."""
         self._own_names = names
         self.needs_library = False
         self._names = {"require_api"}

@@ -11,7 +11,7 @@ from osc2tx_shared.classes import dataclass
 
 @dataclass(frozen=True, slots=True)
 class ArgumentView:
-    """An argument of a call: plain code, or a call of its own, with the comments around it."""
+    """An argument of a call: code, or a nested call, with the comments around it."""
 
     code: PyExpr | None = None
     call: CallView | None = None
@@ -123,7 +123,7 @@ class EnumView:
     Attributes:
         name: Its name.
         members: Its members.
-        is_long: Each member has a line of its own, since some have comments.
+        is_long: Each member has its own line, since some have comments.
         copied: Why it is a copy, if it is one.
     """
 
@@ -177,7 +177,7 @@ class TypeView:
         docstring: Lines of its docstring.
         fields: Its own fields.
         methods: Its own methods.
-        has_constructor: Whether a declared object has one of its own.
+        has_constructor: Whether a declared object has a constructor.
         others: The type of the keywords that its bases take.
         inherited: The fields that its bases of the scenario's files add to those.
         keeps: Its constraints, as comments.
@@ -201,13 +201,13 @@ class TypeView:
 
 @dataclass(frozen=True, slots=True)
 class UserActionView:
-    """An action of the user's own, as a function with its type.
+    """A user-defined action, as a function with its type.
 
     Attributes:
         function: Its name in the module.
         protocol: Name of its type.
         action: Its name in the registry.
-        binder: What makes the function.
+        binder: The function that creates it.
         docstring: Lines of its docstring.
         parameters: As they are written, the actor first.
         copied: Why it is a copy, if it is one.
@@ -259,11 +259,11 @@ class ScenarioView:
         docstring: Lines of its docstring.
         attributes: Its name, its source and its policies.
         events: Classes of its events with parameters.
-        ahead: What it declares before its base does.
-        declarations: What it declares.
+        ahead: Its declarations before those of its base.
+        declarations: Its declarations.
         functions: Its methods that compute a value.
-        places_besides: It places what its base does, and more.
-        placements: What it places.
+        places_besides: It adds placements to those of its base.
+        placements: Its placements.
         methods: Its behavior, and the phases of it.
         end_comments: Those below its last member.
         copied: Why it is a copy, if it is one.

@@ -1,4 +1,4 @@
-"""From diagnostics to what people and programs read.
+"""From diagnostics to text for people and documents for programs.
 
 `text` is for people. Four forms are for programs and print a whole `Report` at once: `json_report`
 (`docs/diagnostics.schema.json` describes it), `sarif` (SARIF 2.1.0), `github` (commands of

@@ -11,7 +11,7 @@ from osc2tx.diagnostics.model import Diagnostic
 from osc2tx.diagnostics.report import Report, display_name
 from osc2tx_shared.text import visible, without_commands
 
-MOST_COMMANDS = 200  # nobody reads more beside a pull request
+MOST_COMMANDS = 200  # more is not readable in a pull request
 
 
 def render_github(report: Report) -> str:

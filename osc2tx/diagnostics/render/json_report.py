@@ -24,7 +24,7 @@ def render_json(report: Report, *, version: str) -> str:
     """Return the report as a JSON document.
 
     Args:
-        report: What to render.
+        report: The report.
         version: The version of osc2tx.
     """
     document: dict[str, Any] = {

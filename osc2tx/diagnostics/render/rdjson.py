@@ -23,8 +23,8 @@ def render_rdjson(report: Report, *, docs_url: str | None = None) -> str:
     """Return the report as a document of the Reviewdog Diagnostic Format.
 
     Args:
-        report: What to render.
-        docs_url: Where the documentation is published; each code links to its page there.
+        report: The report.
+        docs_url: Address of the documentation; each code links to its page there.
     """
     found = [_diagnostic(each, report.folder, docs_url) for each in report.diagnostics]
     found += [

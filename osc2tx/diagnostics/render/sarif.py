@@ -1,6 +1,6 @@
 """Diagnostics as SARIF 2.1.0, the format of code scanning.
 
-Columns count UTF-16 code units from 1, and the log says so. Warnings that a comment suppresses are
+Columns count UTF-16 code units from 1, as the log states. Warnings that a comment suppresses are
 left out: GitHub would show them as open alerts in spite of their `suppressions`.
 """
 
@@ -35,10 +35,10 @@ def render_sarif(
     """Return the report as a SARIF log with one run.
 
     Args:
-        report: What to render.
+        report: The report.
         version: The version of osc2tx.
         failed: Whether osc2tx itself failed on some file.
-        docs_url: Where the documentation is published; each rule links to its page there.
+        docs_url: Address of the documentation; each rule links to its page there.
     """
     codes = sorted({diagnostic.code for diagnostic in report.diagnostics})
     driver: dict[str, Any] = {
@@ -90,7 +90,7 @@ def _fault(fault: FileFault, index: int) -> dict[str, Any]:
 
 
 def _fingerprints(diagnostics: Sequence[Diagnostic], folder: Path | None) -> Iterator[str]:
-    """Yield what tells diagnostics apart, and stays when other lines come or go."""
+    """Yield fingerprints of diagnostics, which do not change with other lines."""
     seen: Counter[tuple[str, ...]] = Counter()
     for diagnostic in diagnostics:
         span = diagnostic.primary
@@ -169,7 +169,7 @@ def _result(diagnostic: Diagnostic, index: int, folder: Path | None) -> dict[str
 
 
 def _fix(fix: Fix, folder: Path | None) -> dict[str, Any]:
-    """Return a fix, whose edits SARIF wants by file."""
+    """Return a fix, whose edits SARIF groups by file."""
     files: dict[SourceFile, list[dict[str, Any]]] = {}
     for edit in fix.edits:
         replacement = {
@@ -218,5 +218,5 @@ def _position(source: SourceFile, offset: int) -> tuple[int, int]:
 
 
 def _escape(text: str) -> str:
-    """Return a text as a SARIF message that says it: braces and links have a meaning there."""
+    """Return a text as a SARIF message: braces and links are escaped."""
     return visible(text).replace("{", "{{").replace("}", "}}").replace("](", "\\](")

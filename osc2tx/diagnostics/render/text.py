@@ -36,7 +36,7 @@ def render_text(diagnostic: Diagnostic, *, color: bool = False, folder: Path | N
     """Return one diagnostic as lines of text, the last one with its line end.
 
     Args:
-        diagnostic: What to render.
+        diagnostic: The diagnostic.
         color: Whether to use the colors of a terminal.
         folder: If given, files below it are cited relative to it and others by their full path,
             so that a terminal can open them; else every file has the name of its `SourceFile`.
@@ -126,7 +126,7 @@ def _marked_line(
 
 
 def _cells(text: str) -> list[str]:
-    """Return what to print for each character: tabs as blanks, nothing that steers a terminal."""
+    """Return the printed form of each character: tabs as blanks, control characters as escapes."""
     cells: list[str] = []
     column = 0
     for char in text:

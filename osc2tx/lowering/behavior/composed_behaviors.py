@@ -37,10 +37,10 @@ def scenario_key(behavior: Composed) -> str:
 
 
 def actor_type_of(behavior: sym.BehaviorSymbol) -> sym.ActorSymbol | None:
-    """Return the type whose objects carry out a behavior.
+    """Return the type whose objects perform a behavior.
 
-    Dialect `carla` has a type that only names what scenarios are about, and of which there are no
-    objects: its scenarios have no actor.
+    Dialect `carla` has a type that only names the subject of scenarios and has no objects: its
+    scenarios have no actor.
     """
     actor = behavior.actor
     return None if actor is None or is_placeholder(actor) else actor

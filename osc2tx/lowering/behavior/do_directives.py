@@ -1,4 +1,4 @@
-"""The `do` of a scenario as one tree, with what happens at its start and end beside it."""
+"""The `do` of a scenario as one tree, with the reactions to its start and end."""
 
 from __future__ import annotations
 
@@ -72,7 +72,7 @@ def _framed(
     body: ir.Behavior,
     after: tuple[ir.Behavior, ...],
 ) -> ir.Behavior:
-    """Return the body with what happens at its start and at its end."""
+    """Return the body, framed by the reactions to its start and its end."""
     if not before and not after:
         return body
     is_bare = isinstance(body, ir.Serial) and not body.until and body.duration is None
@@ -105,7 +105,7 @@ def _lower_directives(
 
 
 def _named_as_do(body: ir.Behavior) -> ir.Behavior:
-    """Name one of several `do` after its operator: it is a phase of its own."""
+    """Name one of several `do` after its operator: each is a phase."""
     match body:
         case ir.Serial() | ir.Parallel() | ir.OneOf():
             name = f"do {type(body).__name__.lower()}"
@@ -115,7 +115,7 @@ def _named_as_do(body: ir.Behavior) -> ir.Behavior:
 
 
 def nothing_left(scenario: Composed) -> ir.Behavior:
-    """Return a tree for a scenario that only places its actors: it ends at once."""
+    """Return a tree for a scenario that only places its actors: it ends immediately."""
     zero = ir.Literal(
         span=scenario.node.name.span, type=ir.ValueType(ir.Kind.FLOAT, "float"), value=0.0
     )
@@ -125,7 +125,7 @@ def nothing_left(scenario: Composed) -> ir.Behavior:
 
 
 def labelled_once(body: ir.Behavior) -> ir.Behavior:
-    """Return the tree with each label once: a dialect lets labels repeat, so later ones count on.
+    """Return the tree with unique labels: a dialect allows repeated labels, which are numbered.
 
     Members that refer to a repeated label mean the first one.
     """

@@ -1,6 +1,6 @@
-"""Durations of what never ends by itself: a range is a parameter like any other (§7.3.5.1.3).
+"""Durations of open-ended members: a range is a parameter like any other (§7.3.5.1.3).
 
-What ends by itself, or with an `until`, takes the time it takes; there a range only bounds it.
+A member that ends by itself, or with an `until`, has its own duration, which a range only bounds.
 """
 
 from __future__ import annotations
@@ -78,9 +78,9 @@ def is_instant(node: ir.Behavior) -> bool:
 
 
 def is_free(node: ir.Behavior) -> bool:
-    """Return whether a member is an action that takes as long as it is given.
+    """Return whether a member is an action that takes the duration that it is given.
 
-    It changes something, and nothing says how fast.
+    It changes a value at an unstated rate.
     """
     return (
         isinstance(node, ir.Invoke)
@@ -126,7 +126,7 @@ def own_duration(ctx: LoweringContext, constraints: ConstraintLowering) -> ir.Ex
 
 
 def leaves_duration_open(ctx: LoweringContext, behavior: Composed) -> bool:
-    """Whether constraints in a behavior say how long it takes, and let it be several times."""
+    """Whether constraints in a behavior state its duration as a range."""
     found = ctx.analysis.types[behavior]
     if _OWN not in found.by_key:
         return False

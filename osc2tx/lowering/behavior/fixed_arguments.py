@@ -43,9 +43,9 @@ def without_fixed(
             ctx.unsupported(
                 "OSC501",
                 argument.span,
-                f"`{callee.qualified_name}` has one value of `{name}` itself; this"
-                " one is open, and may be another",
-                help="leave the argument out, or the constraint there",
+                f"`{callee.qualified_name}` fixes `{name}` to one value; this"
+                " argument is open and may differ",
+                help="omit the argument, or the constraint in the scenario",
             )
         elif name in computed:
             missing = [o for o in computed[name] if o.name not in stated | computed.keys()]

@@ -59,7 +59,7 @@ class InvocationLowering:
         self._specials = SpecialScenarios(ctx, constraints)
 
     def lower(self, node: ast.Invocation) -> ir.Behavior | None:
-        """Lower an invocation, with what its modifiers attach; `None` if it was refused.
+        """Lower an invocation, with the reactions of its modifiers; `None` if it was refused.
 
         Constraints on it become arguments, which have no comments of their own.
         """
@@ -185,7 +185,7 @@ class InvocationLowering:
                 node.span,
                 f"{'action' if isinstance(idle, sym.ActionSymbol) else 'scenario'} "
                 f"`{idle.qualified_name}` has no `do`",
-                help="say what happens in it: `do …`",
+                help="state its behavior: `do …`",
             )
             return None
         self._ctx.invoked.append(callee)
@@ -210,8 +210,8 @@ class InvocationLowering:
             self._ctx.unsupported(
                 "OSC501",
                 duration.span,
-                f"`{callee.qualified_name}` says itself how long it takes, and leaves that open",
-                help="leave the constraint out there, or the duration here",
+                f"`{callee.qualified_name}` states its duration as a range",
+                help="omit the constraint there, or the duration here",
             )
         decided = ("duration", *self._conditions(callee))
         handed_in = tuple(each for each in arguments if each.parameter not in decided)
@@ -269,7 +269,7 @@ class InvocationLowering:
     def _arguments(
         self, node: ast.Invocation, actor: ir.Expression | None
     ) -> tuple[ir.Argument, ...]:
-        """Return the arguments, and what `keep(it.parameter …)` says: the same thing (§6)."""
+        """Return the arguments and the equivalent constraints `keep(it.parameter …)` (§6)."""
         binding = self._ctx.model.binding_of(node)
         arguments = lower_arguments(self._ctx, binding, node.arguments)
         if not is_composed(binding.callee):

@@ -1,8 +1,8 @@
-"""How long invoked scenarios take, by the times that they draw (§7.6.2.1.4).
+"""Durations of invoked scenarios, from the times that they draw (§7.6.2.1.4).
 
-A duration around an invocation bounds what happens inside. So the times that the invoked scenario
-would draw are drawn by its invoker where a duration asks for it: they are parameters of the
-invoker, solved for like its own, and handed in by path.
+A duration around an invocation bounds the invoked scenario. Where a duration requires it, the
+invoker draws the times of the invoked scenario: they are parameters of the invoker, solved for like
+its own, and passed by path.
 """
 
 from __future__ import annotations
@@ -28,12 +28,12 @@ class _Undecided(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Lasting:
-    """How long an invoked scenario takes.
+    """The duration of an invoked scenario.
 
     Attributes:
         terms: Times that add up, in terms of the invoker.
-        goes_on: It goes on behind them for as long as it is given.
-        members: Of several that run together, the times of each: the longest counts.
+        goes_on: It continues behind them for the rest of the given duration.
+        members: The times of members that run together: the longest counts.
     """
 
     terms: Terms = ()
@@ -52,10 +52,10 @@ class _Frame:
     """One invocation.
 
     Attributes:
-        scenario: That is invoked.
-        given: Arguments, each with the frame that it is an expression of; None for the invoker.
-        path: Of the invocation, below the outermost one.
-        who: Of the invocation, for the names of times.
+        scenario: The invoked scenario.
+        given: Arguments, each with the frame of its expression; None for the invoker.
+        path: Path of the invocation, below the outermost one.
+        who: Name of the invocation, for the names of times.
         drawn: Times that the invoker draws for the outermost invocation, by path.
     """
 
@@ -83,9 +83,9 @@ class InvokedTimes:
     _as_drawn: dict[str, ir.Parameter] = field(default_factory=dict)
 
     def lengths(self, node: ir.InvokeScenario) -> Lengths:
-        """Return how long an invoked scenario may take, whatever duration it is given.
+        """Return the possible durations of an invoked scenario without a given duration.
 
-        Times that it draws become parameters of the invoker. Nothing if only the run decides; one
+        Times that it draws become parameters of the invoker. Empty if only the run decides; one
         length for each choice of its alternatives.
         """
         known, drawn = list(self.ctx.drawn), dict[str, ir.FieldRef]()
@@ -99,16 +99,16 @@ class InvokedTimes:
             self._drawn[node] = drawn
         return found
 
-    # --- what is handed in ---
+    # --- passed times ---
 
     def handed_in(self, tree: ir.Behavior, constraints: Sequence[ir.Constraint]) -> ir.Behavior:
-        """Return a tree whose invocations take the times that were solved for.
+        """Return a tree whose invocations take the solved times.
 
         Where a duration leaves all of them as they are, the invoked scenario draws them itself.
 
         Args:
-            tree: The tree, with the invocations of which `lengths` was asked.
-            constraints: What has to be checked before a run.
+            tree: The tree, with the invocations that `lengths` measured.
+            constraints: Constraints that are checked before a run.
         """
         named = names_in(tuple(each.expression for each in constraints))
         named |= {name for each in self.ctx.drawn for name in self._read_by(each)}
@@ -275,7 +275,7 @@ _PLAIN = (ir.Literal, ir.Quantity, ir.FieldRef, ir.Unary, ir.Binary, ir.Conditio
 def _with_times(
     tree: ir.Behavior, times: Mapping[Hashable, tuple[ir.Argument, ...]]
 ) -> ir.Behavior:
-    """Return a tree whose invocations, by their places, are handed in times."""
+    """Return a tree whose invocations, by position, are passed their times."""
     match tree:
         case ir.InvokeScenario(span=span) if span in times:
             return replace(tree, times=times[span])

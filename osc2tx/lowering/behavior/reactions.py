@@ -1,4 +1,4 @@
-"""What `on` directives do, and what stands beside a behavior because something attaches it."""
+"""Reactions of `on` directives, and those that modifiers and extensions attach to a behavior."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def lower_on(ctx: LoweringContext, node: ast.OnDirective) -> ir.On | None:
 def lower_reactions(
     ctx: LoweringContext, node: ast.OnDirective
 ) -> tuple[ir.Emit | ir.Finish | ir.Call, ...]:
-    """Return what an `on` directive does; its own comments are not among theirs."""
+    """Return the reactions of an `on` directive, without its comments."""
     found: list[ir.Emit | ir.Finish | ir.Call | None] = []
     for member in node.members:
         if isinstance(member, ast.EmitDirective):
@@ -58,9 +58,9 @@ def lower_reactions(
 def at_boundary(
     ctx: LoweringContext, statements: Iterable[ast.Statement], moment: str
 ) -> tuple[ir.Behavior, ...]:
-    """Return what happens at the start or end of a behavior: it frames the body.
+    """Return the reactions to the start or end of a behavior: they frame the body.
 
-    Events whose specification is that moment, `event begun is @start`, come before reactions.
+    Events that are specified as this instant, `event begun is @start`, precede reactions.
     """
     emitted: list[ir.Behavior] = []
     done: list[ir.Behavior] = []
@@ -106,7 +106,7 @@ def lower_call_directive(ctx: LoweringContext, node: ast.CallDirective) -> ir.Ca
 
 
 def lower_emit(ctx: LoweringContext, node: ast.EmitDirective) -> ir.Emit | ir.Finish | None:
-    """Lower `emit`; by `emit end` and `emit fail` the scenario says that it is over."""
+    """Lower `emit`; `emit end` and `emit fail` end the scenario."""
     event = ctx.model.symbol_of(node.event)
     comments = statement_comments(node)
     if not declares_event(event) and node.event.text in FINISHING:
@@ -139,13 +139,13 @@ def label_of(node: ast.BehaviorMember) -> str | None:
 
 @dataclass(slots=True)
 class Attached:
-    """What modifiers and extensions of the library attach to a behavior: it happens around it.
+    """Reactions that modifiers and extensions of the library attach to a behavior.
 
     Attributes:
-        is_whole: The behavior is all that a scenario does.
-        before: What happens at its start.
-        beside: What reacts for as long as it runs.
-        after: What happens at its end.
+        is_whole: The behavior is the `do` of a scenario.
+        before: Reactions to its start.
+        beside: Reactions during its execution.
+        after: Reactions to its end.
     """
 
     is_whole: bool = False
@@ -175,17 +175,17 @@ class Attached:
                 self.beside += present([lower_on(ctx, node)])
 
     def extend(self, other: Attached) -> None:
-        """Attach what is attached to a part of it."""
+        """Add the reactions of a part of the behavior."""
         self.before += other.before
         self.beside += other.beside
         self.after += other.after
 
     def around(self, body: ir.Behavior, name: str) -> ir.Behavior:
-        """Return a behavior with all of that.
+        """Return a behavior with all reactions.
 
         Args:
             body: The behavior; its label stays its own.
-            name: What to call the whole.
+            name: Name of the result.
         """
         if self.before or self.after:
             members = (*self.before, body, *self.after)
@@ -199,7 +199,7 @@ class Attached:
 def attached_context(
     ctx: LoweringContext, owner: sym.TypeSymbol, statements: Sequence[ast.Statement], what: str
 ) -> LoweringContext:
-    """Return the context for the body of what is attached, its events and variables declared.
+    """Return the context for the body of attached members, with their events and variables.
 
     Each application has events and variables of its own: they are declared in the scenario.
 
@@ -207,7 +207,7 @@ def attached_context(
         ctx: The context of the application.
         owner: The modifier, or the extended action.
         statements: Its members.
-        what: What they belong to, for their names.
+        what: Their owner, for their names.
     """
     own = {id(statement) for statement in statements}
     members = [

@@ -34,12 +34,12 @@ from osc2tx_shared.classes import dataclass, replace
 
 @dataclass(frozen=True, slots=True)
 class Specialised:
-    """What an invocation runs.
+    """The scenario that an invocation runs.
 
     Attributes:
-        scenario: What runs unless one of the others applies.
-        others: Conditional scenarios below it, the most special ones first, each with all that it
-            depends on.
+        scenario: The scenario that runs unless one of the others applies.
+        others: Conditional scenarios below it, the most derived ones first, each with the values
+            that it depends on.
     """
 
     scenario: Composed
@@ -64,10 +64,9 @@ class SpecialScenarios:
     constraints: ConstraintLowering
 
     def of(self, node: ast.Invocation, callee: Composed) -> Specialised:
-        """Return what an invocation runs.
+        """Return the scenario that an invocation runs.
 
-        Something that could be of two conditional types at once would need a class of both; that is
-        reported.
+        An object that may be of two conditional types would need a class of both; that is reported.
         """
         certain: list[tuple[Composed, Determinant]] = []
         possible: list[tuple[Composed, Determinant]] = []
@@ -123,9 +122,9 @@ class SpecialScenarios:
         arguments: tuple[ir.Argument, ...],
         name: str,
     ) -> tuple[ir.Argument, ...]:
-        """Return the arguments of an invocation with those that the choice depends on.
+        """Return the arguments of an invocation, with those that decide the choice.
 
-        The invoked scenario would draw what has no argument; here the choice has to know it.
+        The invoked scenario draws parameters without an argument; the choice needs their values.
         """
         result = {argument.parameter: argument for argument in arguments}
         for field in found.fields:

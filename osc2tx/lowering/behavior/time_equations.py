@@ -1,8 +1,7 @@
-"""Equations and bounds between the times of a scenario, and what they leave to drawn times.
+"""Equations and bounds between the times of a scenario, and the remaining values of drawn times.
 
-A time that is drawn from a range gets the value that an equation leaves it, or a narrower range;
-what that does not settle is checked before a run. A contradiction is an error that shows both
-positions.
+A time that is drawn from a range gets the value that an equation determines, or a narrower range;
+the rest is checked before a run. A contradiction is an error that shows both positions.
 """
 
 from __future__ import annotations
@@ -50,9 +49,9 @@ class TimeEquations:
 
     Attributes:
         ctx: The scenario; parameters that it draws are solved for.
-        declared: Its own declarations, parameters among them.
-        solvable: The names of own parameters that are solved for as well.
-        constraints: What has to be checked before a run.
+        declared: Its declarations, including parameters.
+        solvable: The names of its parameters that are solved for as well.
+        constraints: Constraints that are checked before a run.
     """
 
     ctx: LoweringContext
@@ -61,7 +60,7 @@ class TimeEquations:
     constraints: list[ir.Constraint] = field(default_factory=list)
 
     def relate(self, terms: Terms, whole: ir.Expression) -> None:
-        """Let a sum be a time, or in a range of times."""
+        """Require that a sum equals a time, or is in a range of times."""
         if self.is_impossible(terms, whole):
             return
         self._narrow(terms, whole)
@@ -87,10 +86,10 @@ class TimeEquations:
             self._check(self._within(sum_of(terms), about(whole)))
 
     def bound(self, terms: Terms, whole: ir.Expression) -> bool:
-        """Let a sum be no longer than a time, or than a range of times allows.
+        """Require that a sum does not exceed a time, or a range of times.
 
         Returns:
-            Whether it can be.
+            Whether this is possible.
         """
         if self.is_impossible(terms, whole, at_most=True):
             return False
@@ -102,9 +101,9 @@ class TimeEquations:
         return True
 
     def relate_either(self, options: Sequence[Terms], whole: ir.Expression) -> None:
-        """Let one of several sums be a time, or in a range of times.
+        """Require that one of several sums equals a time, or is in a range of times.
 
-        A drawn time that is part of all of them is drawn out of the values that they leave it.
+        A drawn time that is part of all of them is drawn from the values that they allow.
         """
         if is_range(whole):
             if not all(self._is_held(terms, whole) for terms in options):
@@ -129,7 +128,7 @@ class TimeEquations:
             self._check(self._within(sum_of(terms), whole))
 
     def _is_held(self, terms: Terms, whole: ir.Expression) -> bool:
-        """Whether a sum lies in a range whatever is drawn."""
+        """Whether a sum is in a range for all drawn values."""
         found = self.bounds(terms)
         lower, upper = (None if end is None else self.bounds((end,)) for end in ends_of(whole))
         is_open = [end is None for end in ends_of(whole)]
@@ -161,7 +160,7 @@ class TimeEquations:
         self.constraints.append(ir.Constraint(expression=expression, span=expression.span))
 
     def _set_to_one_of(self, parameter: ir.Parameter, values: Terms) -> None:
-        """Let a drawn time be one of several values, as far as they may lie in its range."""
+        """Restrict a drawn time to those of several values that can be in its range."""
         assert isinstance(parameter.domain, ir.RangeValue)
         domain, had = parameter.domain, self.bounds((parameter.domain,))
         fitting = tuple(each for each in values if self.fits((each,), domain)) or values
@@ -218,7 +217,7 @@ class TimeEquations:
     # --- the longest of several ---
 
     def relate_longest(self, members: Sequence[Terms], whole: ir.Expression) -> None:
-        """Let the longest of some members be as long as the whole."""
+        """Require that the longest of some members is as long as the whole."""
         longest = self.longest(members)
         variable = [each for each in members if self.is_variable(each)]
         reached = [self.bounds(each) for each in members if each not in variable]
@@ -278,7 +277,7 @@ class TimeEquations:
     def _parameters(
         self, declarations: Sequence[ir.Declaration] | None = None
     ) -> list[ir.Parameter]:
-        """Return the parameters that can be solved for, by default those that stand for ranges."""
+        """Return the parameters that can be solved for, by default those of ranges."""
         drawn = self.ctx.drawn if declarations is None else declarations
         return [
             each

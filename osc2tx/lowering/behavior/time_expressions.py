@@ -25,7 +25,7 @@ def is_range(duration: ir.Expression | None) -> bool:
 
 
 def ends_of(time: ir.Expression) -> tuple[ir.Expression | None, ir.Expression | None]:
-    """Return the bounds of a range, `None` for what is open; a time is both of its own."""
+    """Return the bounds of a range, `None` for an open one; of a time, the time twice."""
     match time:
         case ir.RangeValue(lower=lower, upper=upper):
             return lower, upper
@@ -45,7 +45,7 @@ def lies_within(found: Times | None, wanted: Times | None) -> bool:
 def resolved(
     expression: ir.Expression, values: dict[str, ir.Expression], depth: int = 0
 ) -> ir.Expression:
-    """Return an expression with computed parameters replaced by what computes them."""
+    """Return an expression with computed parameters replaced by their definitions."""
 
     def computed(part: ir.Expression) -> ir.Expression | None:
         value = values.get(part.name) if isinstance(part, ir.FieldRef) else None
@@ -68,7 +68,7 @@ def sum_of(terms: Terms) -> ir.Expression:
 
 
 def rest_of(whole: ir.Expression, others: Terms) -> ir.Expression:
-    """Return what other times leave of a whole."""
+    """Return the rest of a whole without other times."""
     return reduce(lambda left, right: _binary("-", left, right), others, whole)
 
 
@@ -81,7 +81,7 @@ def part_of(whole: ir.Expression, count: int) -> ir.Expression:
 
 
 def solved_for(name: str, terms: Terms, whole: ir.Expression) -> ir.Expression | None:
-    """Return the value of a field with which times add up to a whole, from what the rest is.
+    """Return the value of a field with which times add up to a whole, given the rest.
 
     `None` if it does not occur in them, or not in a linear way.
     """
@@ -141,7 +141,7 @@ def _scaled(
 
 
 def about(time: ir.Expression) -> ir.RangeValue:
-    """Return the range of what is a time but for the rounding of sums."""
+    """Return the range around a time that allows for the rounding of sums."""
     slack = ir.Literal(span=time.span, type=time.type, value=SLACK)
     lower, upper = (_binary(sign, time, slack) for sign in "-+")
     return ir.RangeValue(span=time.span, type=time.type, lower=lower, upper=upper)

@@ -1,10 +1,10 @@
-"""Durations of a `do` tree that hold together (§7.6.2.1, §7.6.2.4).
+"""Consistent durations of a `do` tree (§7.6.2.1, §7.6.2.4).
 
-The times of a tree are sums and differences: a `serial` takes what its members take together, the
-members of an `equal` parallel take the same. A duration around them is an equation or a bound.
-Times that are drawn from ranges are solved for where an equation leaves no choice, bounded or
-checked otherwise; actions of free length, and open-ended members, get the rest. A contradiction is
-an error that shows both positions.
+The times of a tree are sums and differences: the duration of a `serial` is the sum of its members,
+those of an `equal` parallel are equal. A duration around them is an equation or a bound. Times that
+are drawn from ranges are solved for where an equation determines them, otherwise bounded or
+checked; actions of free length, and open-ended members, get the rest. A contradiction is an error
+that shows both positions.
 """
 
 from __future__ import annotations
@@ -65,11 +65,11 @@ _Length: TypeAlias = _Known | _Either | _Filling | None
 INSTANT = _Known(())
 OPEN, FREE = _Filling(), _Filling()
 LEAST = _Filling()
-"""Of what goes on for at least some time."""
+"""The length of a member that continues for at least some time."""
 
 
 def _choice(options: Sequence[Terms]) -> _Length:
-    """Return the length of what has one of several."""
+    """Return the length of a member that has one of several lengths."""
     if not options or len(options) > MOST_CHOICES:
         return None
     return _Known(options[0]) if len(options) == 1 else _Either(tuple(options))
@@ -91,8 +91,8 @@ class TimeSystem:
     Args:
         ctx: The scenario; parameters that it draws are solved for.
         declared: Its own declarations.
-        solvable: The names of own parameters that nobody else gives a value.
-        scenario_of: Gives the scenarios that it invokes.
+        solvable: The names of its parameters that no invoker sets.
+        scenario_of: Returns the scenarios that it invokes.
     """
 
     def __init__(
@@ -113,11 +113,11 @@ class TimeSystem:
 
     @property
     def constraints(self) -> Sequence[ir.Constraint]:
-        """What has to be checked before a run."""
+        """The constraints that are checked before a run."""
         return self._equations.constraints
 
     def solve(self, tree: ir.Behavior) -> ir.Behavior:
-        """Return a tree whose members take the times that the durations around them ask for."""
+        """Return a tree whose members take the times that the durations around them require."""
         solved = self._member(tree, is_bounded=False)[0]
         return self._invoked.handed_in(solved, self.constraints)
 
@@ -126,7 +126,7 @@ class TimeSystem:
 
         Args:
             node: The member.
-            is_bounded: Something around it says how long it takes.
+            is_bounded: A member around it states its duration.
         """
         match node:
             case ir.Wait(trigger=ir.Trigger(event=None, condition=ir.Elapsed(duration=time))):
@@ -154,7 +154,7 @@ class TimeSystem:
         """Relate the times of an invoked scenario to the duration that it is given."""
         duration = node.duration
         if duration is not None and self.ctx.sink.has_report_at(duration.span):
-            return None  # the invoked scenario says otherwise how long it takes
+            return None  # the invoked scenario states another duration
         lengths = self._invoked.lengths(node)
         if duration is None:
             if any(length.goes_on for length in lengths):
@@ -175,7 +175,7 @@ class TimeSystem:
         return None if is_range(duration) else _Known((duration,))
 
     def _relate(self, length: Lasting, duration: ir.Expression) -> None:
-        """Let an invoked scenario take a duration."""
+        """Give an invoked scenario a duration."""
         if not length.members:
             self._equations.relate(length.terms, duration)
             return
@@ -258,7 +258,7 @@ class TimeSystem:
         assert node.duration is not None
         fitting = [each for each in options if self._equations.fits(each, node.duration)]
         if not fitting:
-            return None  # the run says so
+            return None  # the run decides
         if len(fitting) == 1:
             self._equations.relate(fitting[0], node.duration)
         elif self._equations.is_variable(tuple(t for each in fitting for t in each)) or (
@@ -284,7 +284,7 @@ class TimeSystem:
     def _given(
         self, members: tuple[ir.Behavior, ...], filling: Sequence[int], time: ir.Expression
     ) -> tuple[ir.Behavior, ...]:
-        """Return members, some of which take a time; it lies in the range that they ask for."""
+        """Return members, some of which take a time that is in their required range."""
         for index in filling:
             asked = getattr(members[index], "duration", None)
             if asked is not None:
@@ -332,7 +332,7 @@ class TimeSystem:
             high = min(starts[1], first[1], ends[1] + first[1] - own[0])
             if low > high + SLACK:
                 message = (
-                    f"members of {shown(first)} and {shown(own)} cannot overlap as this asks for"
+                    f"members of {shown(first)} and {shown(own)} cannot overlap as this requires"
                 )
                 labels = [Label(term.span, "one of them") for term in other.terms]
                 self.ctx.sink.report("OSC519", node.span, message, labels=labels)
@@ -375,7 +375,7 @@ class TimeSystem:
             if all(self._equations.fits(each[0], sum_of(terms)) for terms in each[1:])
         ]
         if len(fitting) != 1:
-            return lengths  # who fits shows when all times are drawn
+            return lengths  # the choice is known when all times are drawn
         chosen = dict(zip(options, map(_Known, fitting[0]), strict=True))
         return [chosen.get(index, length) for index, length in enumerate(lengths)]
 

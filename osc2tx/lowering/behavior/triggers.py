@@ -95,7 +95,7 @@ def _lower_event(
             "OSC506",
             path.span,
             f"`@{symbol.name}` of the scenario itself cannot be waited for here",
-            help="inside of it the start has passed, and the end is not yet: use `on @start` or "
+            help="inside the scenario its start is past and its end is ahead: use `on @start` or "
             "`on @end`, without `if`, or label the members, `@label.end`",
         )
         return None

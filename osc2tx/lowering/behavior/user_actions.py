@@ -1,7 +1,7 @@
-"""Actions that the scenario's own files declare; a package of the user carries them out.
+"""Actions that the files of a scenario declare; a package of the user implements them.
 
-The declaration is what counts: a value that an invocation leaves out is the default of the
-declaration, whatever the default of the Python class.
+The declaration decides: an omitted argument has the default of the declaration, not that of the
+Python class.
 """
 
 from __future__ import annotations
@@ -122,7 +122,7 @@ def _in_order_of_use(
         chosen = next(ready, None)
         if chosen is None:
             names = ", ".join(f"`{parameter.name}`" for parameter in pending)
-            ctx.unsupported("OSC511", pending[0].span, f"defaults go round in a circle: {names}")
+            ctx.unsupported("OSC511", pending[0].span, f"circular defaults: {names}")
             return
         pending.remove(chosen)
         yield chosen

@@ -51,8 +51,8 @@ def lower_check(
         else:
             what = "this constraint depends on the state of the world"
             instead = (
-                "constraints hold between values that are known before the run; "
-                "wait for a condition, or end something at it"
+                "constraints relate values that are known before the run; "
+                "wait for the condition, or end a member with `until`"
             )
         ctx.unsupported("OSC502", constraint.span, what, help=instead)
         return None

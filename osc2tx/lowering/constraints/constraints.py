@@ -1,8 +1,8 @@
 """Constraints on the values of a scenario (§7.3.11) as fixed values and domains.
 
-A parameter becomes a constant (what sets it is hard), a value with a default, or a value out of a
-domain. Its domain is written with the bounds of the source where the source has them. A constraint
-that all this does not make true by itself is left over: it is checked before the run.
+A parameter becomes a constant (set by a hard constraint), a value with a default, or a value out of
+a domain. Its domain is written with the bounds of the source, if there are any. A constraint that
+these do not imply is checked before the run.
 """
 
 from __future__ import annotations
@@ -190,7 +190,7 @@ class ConstraintLowering:
         self._used.add(constraint)
 
     def left_over(self) -> tuple[ir.Constraint, ...]:
-        """Return what has to be checked before the run; ask last."""
+        """Return the constraints that are checked before the run; called last."""
         left = [c for c in self.found.in_force.constraints if self._is_left(c)]
         lowered = (lower_check(self.ctx, c, self._comments(c)) for c in left)
         return tuple(constraint for constraint in lowered if constraint is not None)
@@ -212,7 +212,7 @@ class ConstraintLowering:
         return writer.equality([c for c in writer.constraints if self._defines(c, writer.key)])
 
     def _defines(self, constraint: Constraint, member: Key) -> bool:
-        """Whether a constraint is all that says what another parameter is, by a member."""
+        """Whether a constraint is the only definition of another parameter, through a member."""
         subject = constraint.subject
         if subject is None or subject == member:
             return False
@@ -220,7 +220,7 @@ class ConstraintLowering:
             return True
         about = self.found.by_key.get(subject, ())
         own = [c for c in about if c.subject == subject and c.value is not None]
-        if len(member) == 1:  # the other one is declared later, and takes its last definition
+        if len(member) == 1:  # the other parameter is declared later, and takes its last definition
             definitions = [c for c in own if not c.is_range]
             return len(subject) == 1 and definitions[-1:] == [constraint]
         return own == [constraint]

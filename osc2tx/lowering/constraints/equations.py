@@ -24,10 +24,10 @@ RIGHT_SWAPPED = {Op.SUBTRACT: Op.SUBTRACT, Op.DIVIDE: Op.DIVIDE}
 def solve_for(
     ctx: LoweringContext, node: ast.Expression, constraint: Constraint, key: Key
 ) -> ir.Expression | None:
-    """Return the value of a parameter for which an equality holds; `None` if that is not plain.
+    """Return the value of a parameter for which an equality holds; `None` if it is not simple.
 
-    Only reals are solved for, and only if the parameter occurs once and no operator but the four
-    of arithmetic stands around it.
+    Only reals are solved for, and only if the parameter occurs once, below the four operators of
+    arithmetic.
     """
     if not isinstance(node, ast.Binary) or node.operator is not Op.EQUAL:
         return None

@@ -113,8 +113,8 @@ def _is_constant(node: ast.Expression) -> bool:
 def _without_list(name: str, said: dict[int, ir.Expression]) -> dict[int, ir.Expression]:
     """Return the values of elements; one that reads another element gets its value.
 
-    Elements that are drawn have no value to put in, and those that need themselves keep their
-    reference: `in_order_of_use` reports it.
+    Drawn elements have no value to insert, and circular ones keep their reference:
+    `in_order_of_use` reports them.
     """
 
     def replacement(part: ir.Expression) -> ir.Expression | None:
@@ -191,11 +191,11 @@ LISTS = frozenset({"vehicle.axles", "traffic_participant.intended_infrastructure
 def fixed_elements(
     ctx: LoweringContext, constraints: ConstraintLowering, object_: sym.FieldSymbol
 ) -> Iterator[ir.FieldValue]:
-    """Yield what constraints fix about elements; their paths have numbers behind the lists.
+    """Yield the values that constraints fix of elements; their paths have numbers behind the lists.
 
     Args:
         ctx: The checked program.
-        constraints: Constraints of the scenario; the ones that are found count as written.
+        constraints: Constraints of the scenario; those that are found are marked as written.
         object_: The object.
     """
     for constraint in constraints.found.in_force.constraints:

@@ -166,7 +166,7 @@ class DomainWriter:
         return min(plain, key=lambda unit: (len(unit.name), unit.name), default=None)
 
     def _equalities(self, but: Sequence[Constraint] = ()) -> Iterator[ir.Expression]:
-        """Yield what hard constraints say that the parameter equals, in parts of them."""
+        """Yield the values that parts of hard constraints equate with the parameter."""
         for constraint, part in self._parts():
             if part.operator is Op.EQUAL and not constraint.is_default and constraint not in but:
                 for side, other in ((part.left, part.right), (part.right, part.left)):

@@ -23,7 +23,7 @@ class Setting:
         domain: Its domain.
         is_fixed: Nothing can change the value.
         comments: Comment lines of the constraints behind it.
-        constraints: The constraints that say so.
+        constraints: The constraints behind them.
     """
 
     value: ir.Expression | None
@@ -39,10 +39,11 @@ class Setting:
 
 
 def is_known_here(constraint: Constraint, key: Key) -> bool:
-    """Whether a constraint can be written here: one of an invocation only if it is alone.
+    """Whether a constraint can be written here: that of an invocation only if it is alone.
 
-    One of an invoked scenario sets an object that is handed in; what else it mentions is only known
-    inside. One that relates a field to an invocation is about that, which stands below all fields.
+    A constraint of an invoked scenario sets a passed object; its other names are known only inside.
+    A constraint that relates a field to an invocation belongs to the invocation, which is below all
+    fields.
     """
     prefix = constraint.place.prefix
     is_inside = bool(prefix) and isinstance(prefix[0], Instance)
@@ -52,12 +53,12 @@ def is_known_here(constraint: Constraint, key: Key) -> bool:
 
 
 def is_last(key: Key, others: list[Key]) -> bool:
-    """Whether a parameter stands below others in the same text; those of a tree below fields."""
+    """Whether a parameter is below others in the same text; those of a tree are below fields."""
     return all(_is_above(first, key[0]) for first, *_ in others)
 
 
 def is_last_of_object(key: Key, others: list[Key]) -> bool:
-    """Whether a member stands below other members of the same object."""
+    """Whether a member is declared below other members of the same object."""
     return all(other[:-1] == key[:-1] and _is_above(other[-1], key[-1]) for other in others)
 
 

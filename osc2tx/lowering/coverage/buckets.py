@@ -35,7 +35,7 @@ from osc2tx.syntax import ast
 from osc2tx_shared.classes import dataclass, replace
 
 THIRDS = ("low", "mid", "high")
-FEW = 256  # whole numbers that have a bucket each: a byte
+FEW = 256  # integers that have a bucket each: a byte
 MOST = 1000  # buckets of an item
 MOST_CELLS = 2500  # of a cross of which each is asked whether it is possible
 ROUNDING = 1e-9  # of a slice
@@ -43,11 +43,11 @@ ROUNDING = 1e-9  # of a slice
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Sampled:
-    """An item of which the values are known.
+    """An item whose values are known.
 
     Attributes:
         item: Its declaration.
-        coverage: What was made of it.
+        coverage: Its coverage in the IR.
         type: Of its values.
         unit: The unit of their bounds.
         ignore: The condition for values that do not count.
@@ -89,7 +89,7 @@ def with_buckets(
 
 
 class _Grading:
-    """Knows what constraints leave of the parameters of a scenario.
+    """The values that constraints leave to the parameters of a scenario.
 
     Defaults do not count: settings may replace them.
     """
@@ -133,7 +133,7 @@ class _Grading:
         return not operations or not solve(operations, range(len(operations)), given).conflict
 
     def _sliced(self, sampled: Sampled) -> list[ir.Bucket]:
-        """Return the buckets that the declaration says."""
+        """Return the buckets of the declaration."""
         coverage = sampled.coverage
         if coverage.buckets:
             return [ir.Bucket(low=low, high=high) for low, high in pairwise(coverage.buckets)]
@@ -176,7 +176,7 @@ class _Grading:
         ]
 
     def _bounds(self, sampled: Sampled) -> tuple[float, float] | None:
-        """Return the least and the greatest value in the unit, if constraints say."""
+        """Return the least and the greatest value in the unit, if constraints state them."""
         key = self._key(sampled)
         domain = None if key is None else self._domains.get(key)
         if not isinstance(domain, Interval) or not math.isfinite(domain.upper - domain.lower):
@@ -210,7 +210,7 @@ class _Grading:
 
 
 def _domain(sampled: Sampled, bucket: ir.Bucket) -> Domain:
-    """Return the values of a bucket, in SI; members of enums stand as their numbers."""
+    """Return the values of a bucket, in SI units; members of enums are their numbers."""
     if bucket.value is not None:
         if isinstance(sampled.type, types.EnumType):
             return Choice(frozenset({sampled.type.symbol.members[str(bucket.value)].value}))

@@ -51,7 +51,7 @@ def _report_name(ctx: LoweringContext, item: Item) -> None:
 def _overrides(
     owner: CoverageOwner,
 ) -> Iterator[tuple[str, dict[str, ast.Expression]]]:
-    """Yield what overrides say, by item; the last word on an argument counts (§7.5.6)."""
+    """Yield the arguments of overrides, by item; the last one of an argument counts (§7.5.6)."""
     merged: dict[str, dict[str, ast.Expression]] = {}
     for ancestor in reversed(owner.lineage):
         for statement in ancestor.statements:

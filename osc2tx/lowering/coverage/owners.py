@@ -1,4 +1,4 @@
-"""What coverage items are members of: a scenario, and the actors and structs in it (§7.5.2)."""
+"""Owners of coverage items: a scenario, and the actors and structs in it (§7.5.2)."""
 
 from __future__ import annotations
 
@@ -24,9 +24,9 @@ class CoverageOwner:
 
     Attributes:
         ctx: For expressions in it.
-        lineage: Its types that are looked at, the most special first.
+        lineage: Its types, the most derived first.
         key: The instance; empty for the scenario.
-        prefix: What names of its items begin with.
+        prefix: Prefix of the names of its items.
     """
 
     ctx: LoweringContext
@@ -53,10 +53,10 @@ class CoverageOwner:
 
 
 def coverage_owners(ctx: LoweringContext, scenario: Composed) -> Iterator[CoverageOwner]:
-    """Yield a scenario and the objects that it declares, as deep as they hold others.
+    """Yield a scenario and the objects that it declares, with those inside them.
 
-    Objects that are handed in are sampled where they are declared. Items of global actors and of
-    lists whose elements no constraint describes are reported: their owners are unknown.
+    Passed objects are sampled where they are declared. Items of global actors and of lists whose
+    elements no constraint describes are reported: their owners are unknown.
     """
     lineage = tuple(supertypes(scenario))
     yield CoverageOwner(ctx, lineage, (), "")

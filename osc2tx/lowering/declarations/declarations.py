@@ -33,7 +33,7 @@ class DeclarationLowering:
         ctx: The checked program.
         scenario: The scenario.
         statements: Its member statements, inherited ones first.
-        constraints: What its constraints say.
+        constraints: Its constraints.
     """
 
     def __init__(
@@ -62,9 +62,9 @@ class DeclarationLowering:
         return present(lowered)
 
     def lower_type_methods(self) -> tuple[ir.Method, ...]:
-        """Return the methods of types that were called so far, and those that they call.
+        """Return the methods of types that are called so far, and those that they call.
 
-        They come in the order of the source, whichever was called first.
+        They are in the order of the source.
         """
         lowered: dict[str, ir.Method | None] = {}
         while missing := [name for name in self._ctx.methods if name not in lowered]:
@@ -204,7 +204,7 @@ class DeclarationLowering:
         )
 
     def _implicit_events(self) -> Iterator[ir.Event]:
-        """Return the events that a dialect lets a scenario use without declaration."""
+        """Return the undeclared events that a dialect allows a scenario to use."""
         for member in self._scenario.members.values():
             if isinstance(member, sym.EventSymbol) and member.is_implicit:
                 yield ir.Event(name=member.name, span=member.span, trigger=None, is_implicit=True)

@@ -25,11 +25,11 @@ from osc2tx.syntax import ast
 
 
 class FieldLowering:
-    """Lowers fields that are not sampled: objects, lists and plain values.
+    """Lowers fields that are not sampled: objects, lists and simple values.
 
     Args:
         ctx: The checked program.
-        constraints: What constraints say.
+        constraints: The constraints of the scenario.
     """
 
     def __init__(self, ctx: LoweringContext, constraints: ConstraintLowering) -> None:
@@ -101,9 +101,9 @@ class FieldLowering:
                 return None
 
     def _parameters(self, field: sym.FieldSymbol, behavior: sym.BehaviorSymbol) -> None:
-        """Declare the parameters of a behavior that a field stands for (§7.2.2.2).
+        """Declare the parameters of a behavior that is the type of a field (§7.2.2.2).
 
-        Nothing invokes it, so all that it has are values; each is one of the scenario, `hop.n`.
+        It is not invoked, so it has only values; each is one of the scenario, `hop.n`.
         """
         if is_composed(behavior):
             self._ctx.invoked.append(behavior)  # it is a part of this one, not one to run
@@ -122,7 +122,7 @@ class FieldLowering:
         span: Span,
         comments: tuple[str, ...],
     ) -> ir.Parameter | None:
-        """Lower an actor that an invocation hands in, and else is another one."""
+        """Lower an actor that an invocation may pass, and that is another actor by default."""
         value = lower_expression(self._ctx, default)
         if value is None:
             return None
@@ -137,7 +137,7 @@ class FieldLowering:
         )
 
     def _is_one_of_several(self, symbol: sym.FieldSymbol) -> bool:
-        """Report an actor of which constraints only say among which others it is."""
+        """Report an actor that constraints equate with one of several others."""
         about = self._constraints.found.by_key.get((symbol,), ())
         own = (c for c in about if c.subject == (symbol,) and not c.place.prefix)
         listed = (c for c in own if c.is_range and not self._is_given(symbol))
@@ -146,8 +146,8 @@ class FieldLowering:
             self._ctx.unsupported(
                 "OSC501",
                 constraint.span,
-                f"which of several actors `{symbol.name}` is, is open until the run",
-                help=f"say which one: `keep({symbol.name} == …)`",
+                f"which of several actors `{symbol.name}` is, is decided by the run",
+                help=f"state which one: `keep({symbol.name} == …)`",
             )
         return constraint is not None
 
@@ -182,7 +182,7 @@ class FieldLowering:
                 "OSC501",
                 span,
                 f"`{symbol.name}`, a {symbol.type}, has no value",
-                help="give it one, `= value`, or say what its elements are, `keep(it[0] == value)`",
+                help="assign a value, `= value`, or constrain its elements, `keep(it[0] == value)`",
             )
             return None
         return ir.Parameter(
@@ -225,7 +225,7 @@ class FieldLowering:
                 "OSC501",
                 setting.value.span,
                 f"`{field.name}` is computed before the run, when the map is not known yet",
-                help="write the expression where it is needed",
+                help="write the expression at its use",
             )
         if setting.value is None and domain is None:
             domain = all_values(field.type, span)

@@ -1,7 +1,7 @@
 """Names of global parameters (§7.3.14), which must differ from those of a scenario's own fields.
 
-A global goes by its plain name, by which settings know it in all scenarios; where two namespaces
-have one of a name, by its full name. A field of the scenario that hides it stands apart by a mark.
+A global has its plain name, which settings use in all scenarios, or its full name if two namespaces
+have the name. A field of the scenario that hides it gets a mark.
 """
 
 from __future__ import annotations

@@ -52,7 +52,7 @@ class GlobalLowering:
         return tuple(sorted(found, key=lambda d: (d.span.source.name, d.span.start)))
 
     def _is_constrained(self, symbol: sym.FieldSymbol) -> bool:
-        """Whether the scenario sets a global parameter, or says something of a member of one."""
+        """Whether the scenario sets a global parameter, or constrains a member of one."""
         found = self._own.found.by_key
         return any(key[0] is symbol and len(key) > 1 for key in found) or any(
             each.subject == (symbol,) and each.place.owner is not None
@@ -81,7 +81,7 @@ class GlobalLowering:
         return () if declaration is None else (replace(declaration, name=name, is_global=True),)
 
     def _path(self, name: str, symbol: sym.FieldSymbol) -> tuple[ir.Actor | ir.Struct, ...]:
-        """Return the piece of road of a global path, with what any scenario asks of it."""
+        """Return the part of a road of a global path, with the constraints of all scenarios."""
         scenarios = (s for s in self._ctx.model.symbols if isinstance(s, sym.ScenarioSymbol))
         statements = [statement for scenario in scenarios for statement in scenario.statements]
         members = path_members(self._ctx, statements)

@@ -1,6 +1,6 @@
-"""Fields of roads, lanes and lights that the map fills in before a run.
+"""Fields of roads, lanes and lights whose values come from the map.
 
-Scenarios may bound some of them; the runtime then looks for parts of the map that fit.
+Scenarios may bound some of them; the runtime then selects matching parts of the map.
 """
 
 from __future__ import annotations
@@ -14,15 +14,15 @@ MAP_FIELDS = frozenset(
     | {"lane_section", "map", "road", "route", "traffic_light", "traffic_light_group"}
     | {"traffic_light_stop_line"}
 )
-# ... but for those that a scenario itself says.
+# ... except those that a scenario states itself.
 SCENARIO_FIELDS = frozenset({"group", "map_id", "traffic_light_control", "traffic_light_group"})
 # Numbers that a scenario may leave to the map within bounds.
 SEARCH_CRITERIA = frozenset({"length", "max_lanes", "min_lanes", "width"})
 
-NOT_SEARCHED_BY = "this constraint is about what the map fills in, and not one it is searched by"
+NOT_SEARCHED_BY = "the map provides this value and is not searched by it"
 SEARCHED_BY = (
-    "bounds such as `keep(it.length >= 100m)` and `keep(it.width in [3m..4m])` are looked for; so"
-    " are values, lists of members and modifiers of the map"
+    "bounds such as `keep(it.length >= 100m)` and `keep(it.width in [3m..4m])` select parts of the"
+    " map; so do values, lists of members and modifiers of the map"
 )
 
 

@@ -46,7 +46,7 @@ class ObjectLowering:
 
     Args:
         ctx: The checked program.
-        constraints: What its constraints say.
+        constraints: Its constraints.
     """
 
     def __init__(self, ctx: LoweringContext, constraints: ConstraintLowering) -> None:
@@ -63,15 +63,15 @@ class ObjectLowering:
                 self._ctx.unsupported(
                     "OSC502",
                     value.span,
-                    f"`{field.name}` is a whole value already",
-                    help=f"say either what `{field.name}` is, or what its fields are",
+                    f"`{field.name}` already has a value as a whole",
+                    help=f"state either the value of `{field.name}` or those of its fields",
                 )
             if ir.is_live(whole.value):
                 self._ctx.unsupported(
                     "OSC502",
                     whole.value.span,
                     f"`{field.name}` cannot depend on the state of the world",
-                    help="write the expression where it is needed",
+                    help="write the expression at its use",
                 )
                 return None
         return ir.Struct(
@@ -97,7 +97,7 @@ class ObjectLowering:
                 self._ctx.unsupported(
                     "OSC501",
                     field.span,
-                    f"whether `{field.name}` is a `{special.name}` is open until the run",
+                    f"whether `{field.name}` is a `{special.name}` is decided by the run",
                     help="fix what it depends on: "
                     f"`keep({field.name}.{_condition_of(special)})`, or another value",
                 )
@@ -121,7 +121,7 @@ class ObjectLowering:
         return any(key[0] is field and len(key) > 1 for key in self._constraints.found.by_key)
 
     def is_open(self, field: sym.FieldSymbol) -> bool:
-        """Whether nothing says all that the class of an object needs to know."""
+        """Whether no constraint states all values that the class of an object requires."""
         if not isinstance(field.type, types.ActorType | types.StructType):
             return False
         ctx = self._ctx.quiet()
@@ -146,7 +146,7 @@ class ObjectLowering:
         Args:
             key: The invocation and its parameter.
             type_: Type of the parameter.
-            object_: The declaration that stands for it.
+            object_: Its declaration.
         """
         found = self._said(key)
         types_ = self._special(key, type_.symbol, object_.span)
@@ -166,7 +166,7 @@ class ObjectLowering:
         return ir.FieldRef(span=field.span, type=lower_type(field.type), name=name)
 
     def _said(self, object_: Key) -> dict[Key, ir.FieldValue]:
-        """Return what constraints fix or bound, but for defaults that the class has anyway."""
+        """Return the values that constraints fix or bound, except defaults of the class."""
         found: dict[Key, ir.FieldValue] = {}
         for key, setting in self._constraints.members(object_):
             value, member = setting.value, key[-1]
@@ -217,8 +217,8 @@ class ObjectLowering:
                     self._ctx.unsupported(
                         "OSC501",
                         member.span,
-                        f"`{member.name}` makes a `{member.type}` contain another one without end",
-                        help="leave it out: values have no empty place for one that is not there",
+                        f"`{member.name}` makes a `{member.type}` contain another one endlessly",
+                        help="remove the field: a field of a struct type always has a value",
                     )
                 elif isinstance(member.type, types.StructType) and member.default is None:
                     below = member_of(self._ctx, object_, member, member.span)
@@ -258,20 +258,20 @@ class ObjectLowering:
         self._ctx.unsupported(
             "OSC501",
             key[0].span,
-            f"`{name_of(key[:-1])}` does not say its `{member.name}`",
+            f"`{name_of(key[:-1])}` does not state its `{member.name}`",
             help=f"`keep({name_of(key)} == value)`, or give it a default",
         )
         return None
 
 
 def _is_own_method(value: ir.Expression) -> bool:
-    """Whether a value comes from a method of the object itself, which is not made yet."""
+    """Whether a method of the object itself, which does not exist yet, computes a value."""
     calls = (part for part in ir.walk(value) if isinstance(part, ir.MethodCall))
     return any(isinstance(a.value, ir.ScenarioSelf) for call in calls for a in call.arguments)
 
 
 def _outside(key: Key) -> Key:
-    """Return what leads to an object: its field, or an invocation and its parameter."""
+    """Return the key of an object: its field, or an invocation and its parameter."""
     return key[:1] if isinstance(key[0], sym.FieldSymbol) else key[:2]
 
 
@@ -283,7 +283,7 @@ def _condition_of(special: TypeSymbol) -> str:
 def _without_object(
     ctx: LoweringContext, name: str, type_: types.Type, found: dict[Key, ir.FieldValue]
 ) -> tuple[ir.FieldValue, ...]:
-    """Return the values; what reads a field of the same object gets the value of that field."""
+    """Return the values; a reference to a field of the same object is replaced by its value."""
     by_path = {value.path: value.value for value in found.values()}
 
     def replacement(part: ir.Expression) -> ir.Expression | None:

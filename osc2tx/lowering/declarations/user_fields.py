@@ -45,7 +45,7 @@ def mentioned_fields(model: SemanticModel) -> Mapping[sym.FieldSymbol, frozenset
 
 
 def default_keeps(model: SemanticModel) -> Mapping[sym.FieldSymbol, ast.KeepConstraint]:
-    """Return what gives fields a default in the type that declares them, `keep(default it == 3)`.
+    """Return the constraints that give fields a default in their own type, `keep(default it == 3)`.
 
     The last one counts (§7.3.11.2).
     """
@@ -94,7 +94,7 @@ def _is_sampled(type_: types.Type) -> bool:
 
 
 def user_fields(ctx: LoweringContext, symbol: TypeSymbol) -> Iterator[sym.FieldSymbol]:
-    """Yield the fields that objects of an own type have besides those of its base."""
+    """Yield the fields of an own type that its base does not have."""
     return (member for member in _fields(symbol) if _has_value(member) or member in ctx.mentioned)
 
 

@@ -62,7 +62,7 @@ def _user_enums(model: SemanticModel) -> Iterator[sym.EnumSymbol]:
 
 
 def _lower_enum(symbol: sym.EnumSymbol, nodes: Sequence[EnumNode]) -> ir.UserEnum:
-    """Lower an enum; what its declaration and its extensions tell is together."""
+    """Lower an enum, with the comments of its declaration and its extensions."""
     type_ = lower_type(types.EnumType(symbol))
     lines = tuple(line for each in nodes for line in statement_comments(each))
     told = ((m.name.text, statement_comments(m)) for node in nodes for m in node.members)
@@ -76,7 +76,7 @@ def _lower_enum(symbol: sym.EnumSymbol, nodes: Sequence[EnumNode]) -> ir.UserEnu
 
 
 def lower_units(model: SemanticModel) -> tuple[ir.UserUnit, ...]:
-    """Return the units of a program that comments tell about."""
+    """Return the units of a program that have comments."""
     nodes = _of_files(model, ast.UnitDeclaration)
     return tuple(
         ir.UserUnit(name=node.name.text, span=node.span, comments=statement_comments(node))
@@ -189,7 +189,7 @@ def _report_name(ctx: LoweringContext, name: str, span: Span) -> None:
         "OSC501",
         span,
         f"another type of the module has the name `{name}`",
-        help="types of one module share their names, whatever their namespace: rename one",
+        help="names of types are unique in a module, across namespaces: rename one",
     )
 
 
@@ -242,10 +242,10 @@ def _told_by(ctx: LoweringContext, symbol: TypeSymbol) -> Iterator[str]:
 
 
 def _lower_extended(ctx: LoweringContext, symbol: TypeSymbol) -> ir.UserType:
-    """Lower a type of the library that has fields of the user's, by itself or by a base.
+    """Lower a type of the library to which the user adds fields, directly or through a base.
 
-    Its place is that of the last extension, which is of the root file if that has one. One of a
-    dialect becomes a type of its own.
+    Its position is that of the last extension, which is in the root file if that has one. A type of
+    a dialect becomes an own type.
     """
     is_of_library = symbol.origin == "library"
     above = user_bases(symbol)

@@ -1,10 +1,10 @@
-"""Modifiers of the user's own as functions of their parameters.
+"""User-defined modifiers as functions of their parameters.
 
-Where a modifier is applied, modifiers of the library stand for it (`user_modifiers`): that is the
-meaning of the program. Here its body is lowered once, in terms of its parameters, for back ends
-that can write it as a function. A modifier has no function if its body depends on more than its
-parameters: on the modified action (`it`), on its actor, on global parameters, or on a value that is
-drawn at each application. Constraints are not part of a function: they belong to the scenario.
+An application is replaced by modifiers of the library (`user_modifiers`), which are the meaning of
+the program. Here its body is lowered once, in terms of its parameters, for back ends that can write
+it as a function. A modifier has no function if its body depends on more than its parameters: on the
+modified action (`it`), on its actor, on global parameters, or on a value that is drawn at each
+application. Constraints are not part of a function: they belong to the scenario.
 """
 
 from __future__ import annotations
@@ -37,11 +37,11 @@ OF_THE_SCENARIO = (
     ir.EventArgument,
     ir.UserShape,
 )
-"""What only a scenario can say."""
+"""Members that only a scenario can have."""
 
 
 def modifier_key(modifier: sym.ModifierSymbol) -> str:
-    """Return what tells a modifier apart from others of the same name."""
+    """Return the key of a modifier, which differs from others of the same name."""
     return f"modifier {modifier.span.source.name}:{modifier.span.start}"
 
 

@@ -44,9 +44,9 @@ def dialect_defaults(
 
 
 def set_position(ctx: LoweringContext, modifier: ir.ModifierCall) -> ir.ModifierCall:
-    """Return ScenarioRunner's `set_position` as the `position` that says the same.
+    """Return ScenarioRunner's `set_position` as the equivalent `position`.
 
-    Both are left-handed; a place on a road has no pitch or roll of its own.
+    Both are left-handed; a position on a road has no pitch or roll of its own.
     """
     arguments = []
     for argument in modifier.arguments:
@@ -87,7 +87,7 @@ def _default(field: sym.Member | None, span: Span) -> ir.Literal | ir.EnumValue 
 def lower_modifier(
     ctx: LoweringContext, node: ast.ModifierApplication, what: str
 ) -> ir.ModifierCall:
-    """Lower a modifier; `at` is taken out of its arguments, for it says when it holds.
+    """Lower a modifier; `at` is not among its arguments, as it states when it applies.
 
     Args:
         ctx: The checked program.
@@ -120,7 +120,7 @@ def is_override(ctx: LoweringContext, node: ast.ModifierApplication) -> bool:
 def draw_ranges(
     ctx: LoweringContext, binding: Binding, arguments: tuple[ir.Argument, ...], what: str
 ) -> tuple[ir.Argument, ...]:
-    """Let one value be chosen where a range is given for a number (§7.3.5.1.3)."""
+    """Draw one value if a range is passed for a number (§7.3.5.1.3)."""
     fields = {parameter.name: parameter for parameter, _ in binding.arguments}
     drawn = []
     for argument in arguments:

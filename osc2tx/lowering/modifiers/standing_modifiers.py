@@ -33,9 +33,9 @@ class Standing:
         what: Its owner, for names of values that are drawn from ranges.
         actor: The actor of the modified behavior, where the modifier does not name it.
         it: The meaning of `it` in its body.
-        within: The object of whose type it is a member.
+        within: The object whose type has it as a member.
         receiver: The same as a value.
-        composition: What it stands in the `with` of.
+        composition: The composition whose `with` contains it.
     """
 
     node: ast.ModifierApplication
@@ -51,9 +51,9 @@ class StandingModifiers:
     """The standing modifiers of one scenario, each lowered once."""
 
     def __init__(self, ctx: LoweringContext, constraints: ConstraintLowering) -> None:
-        """Take the checked program, and what the constraints of the scenario say.
+        """Store the checked program and the constraints of the scenario.
 
-        `attached` collects what stands beside all that the scenario does.
+        `attached` collects the reactions beside the `do` of the scenario.
         """
         self._ctx = ctx
         self._constraints = constraints
@@ -65,7 +65,7 @@ class StandingModifiers:
 
     @contextmanager
     def inside(self, node: ast.Composition) -> Iterator[None]:
-        """Let the modifiers of a composition hold for its members."""
+        """Apply the modifiers of a composition to its members."""
         self._around.append(node)
         yield
         self._around.pop()
@@ -76,13 +76,13 @@ class StandingModifiers:
                     break
 
     def attached_to(self, node: ast.Composition) -> Attached:
-        """Return what the modifiers of a composition attach to it."""
+        """Return the reactions that the modifiers of a composition attach to it."""
         return self._attached.setdefault(node, Attached())
 
     def of(
         self, actor: ir.Expression | None, action: sym.BehaviorSymbol | None = None
     ) -> Iterator[ir.ModifierCall]:
-        """Yield what modifies the invocations of an actor here.
+        """Yield the modifiers of the invocations of an actor here.
 
         Args:
             actor: The actor.
@@ -109,7 +109,7 @@ class StandingModifiers:
     def not_known_to(
         self, actor: ir.Expression | None, type_: sym.ActorSymbol | None
     ) -> Iterator[ir.ModifierCall]:
-        """Yield what modifies an actor here, but not in a behavior that knows it by a type."""
+        """Yield the modifiers of an actor here, except in a behavior that has it as an argument."""
         known = tuple(supertypes(type_)) if type_ is not None else ()
         of_type = {statement for each in known for statement in each.statements}
         for standing, call in self._calls(actor, None):

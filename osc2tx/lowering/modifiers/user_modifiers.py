@@ -58,8 +58,8 @@ class ModifierLowering:
         action: The invoked action; `None` for modifiers of a whole scenario.
         it: The meaning of `it` in the body: the modified behavior.
         chain: The applications around this one, the outermost first.
-        within: The object of whose type it is a member.
-        attached: Where its reactions go: they stand beside what it modifies.
+        within: The object whose type has it as a member.
+        attached: Collects its reactions, which run beside the modified behavior.
     """
 
     ctx: LoweringContext
@@ -73,11 +73,11 @@ class ModifierLowering:
     attached: Attached = field(default_factory=Attached)
 
     def lower(self, node: ast.ModifierApplication) -> tuple[ir.ModifierCall, ...]:
-        """Return a modifier of the library, or those that one of the user stands for."""
+        """Return a modifier of the library, or those that a user-defined one applies."""
         return tuple(applied.call for applied in self.applied(node))
 
     def applied(self, node: ast.ModifierApplication) -> tuple[Applied, ...]:
-        """Return the same, and what each of them is about."""
+        """Return the same, with the modified object of each."""
         callee = self.ctx.model.binding_of(node).callee
         assert isinstance(callee, sym.ModifierSymbol)
         if not self._applies(node, callee):
@@ -140,13 +140,13 @@ class ModifierLowering:
         return replace(self, ctx=ctx)
 
     def values_of(self, callee: sym.ModifierSymbol) -> dict[sym.FieldSymbol, ir.Expression]:
-        """Return what `bind` found."""
+        """Return the result of `bind`."""
         chain = (*self.within, *self.chain)
         values = ((each, self.ctx.given.get((*chain, each))) for each in parameters_of(callee))
         return {parameter: value for parameter, value in values if value is not None}
 
     def bind(self, callee: sym.ModifierSymbol) -> None:
-        """Find out what the parameters are here."""
+        """Determine the values of the parameters here."""
         for parameter in parameters_of(callee):
             key: Key = (*self.within, *self.chain, parameter)
             if key in self.ctx.given:
@@ -173,7 +173,7 @@ class ModifierLowering:
             case ast.ParameterDeclaration() | ast.RemoveDefault():
                 return ()  # see `bind`
             case ast.MethodDeclaration():
-                return ()  # calls stand for its body
+                return ()  # calls replace its body
             case ast.EventDeclaration() | ast.VariableDeclaration() | ast.OnDirective():
                 return ()  # see `with_events`
             case ast.KeepConstraint():

@@ -1,7 +1,7 @@
-"""Actors of type `Path` of the dialect `carla`, which ask for a road to begin on.
+"""Actors of type `Path` of the dialect `carla`, which require a road for the start.
 
-A `Path` becomes one declared piece of road with all constraints on it, and `set_map` the map of the
-scenario. `drive(path)` places the driving actor: from there on the road leads.
+A `Path` becomes one declared part of a road with all constraints on it, and `set_map` the map of
+the scenario. `drive(path)` places the driving actor, which then follows the road.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ SEARCH_CRITERIA = {
 
 @dataclass(frozen=True, slots=True)
 class PathMember:
-    """A modifier of a path that stands as a member of a scenario."""
+    """A modifier of a path that is a member of a scenario."""
 
     owner: sym.FieldSymbol
     modifier: ir.ModifierCall
@@ -74,12 +74,12 @@ def path_declarations(
     members: Sequence[PathMember],
     comments: tuple[str, ...],
 ) -> tuple[ir.Actor | ir.Struct, ...]:
-    """Return the piece of road that a path stands for, below the map that it asks for."""
+    """Return the part of a road that a path denotes, below its map."""
     own = [member.modifier for member in members if member.owner is field]
     for index, modifier in enumerate(own):
         if any(other.name == modifier.name for other in own[:index]):
             ctx.unsupported(
-                "OSC508", modifier.span, f"modifier `{modifier.name}` stands here twice"
+                "OSC508", modifier.span, f"modifier `{modifier.name}` is applied twice here"
             )
     maps = [
         ir.Actor(

@@ -1,8 +1,8 @@
-"""Implied starts: where and how fast an actor has to begin for its first action.
+"""Implied starts: the position and speed that the first action of an actor requires.
 
-An actor of which nothing states the start begins at rest and in a free place, unless its first
-action says how it goes on, or how it ends when its time is over: then it begins so that this can
-be, with the speed and beside the actor that it ends with.
+An actor without a stated start begins at rest at a free position, unless its first action states
+how it continues, or how it ends after a limited time: then the start makes this possible, with the
+speed of the end and beside the actor of the end.
 """
 
 from __future__ import annotations
@@ -27,9 +27,9 @@ class FirstAction:
 
     Attributes:
         node: The action.
-        time: What its time is limited to; `None` if it is not, or only to a range.
+        time: Its time limit; `None` without one, or if it is a range.
         is_later: It does not begin with the scenario.
-        is_drawn: There is another one in another alternative of a `one_of`.
+        is_drawn: Another alternative of a `one_of` has another first action.
     """
 
     node: ir.Invoke
@@ -49,7 +49,7 @@ class FirstAction:
 
     @property
     def paces(self) -> list[ir.ModifierCall]:
-        """What states a speed, or a place at each time, but for positions."""
+        """Modifiers that state a speed, or a position at each time, except `position`."""
         entries = catalogue().modifiers
         return [
             each
@@ -150,7 +150,7 @@ def _begins_as_it_ends(action: FirstAction) -> bool:
 
 
 def _open_speed(action: FirstAction) -> list[ir.ModifierCall]:
-    """Return the speed of which the first action tells that it has to be the one at the start."""
+    """Return the speed that the first action requires at the start."""
     paces, time, later = action.paces, action.time, action.later
     match [(each.name, each.at) for each in paces]:
         case []:
@@ -212,7 +212,7 @@ def _changes(modifier: ir.ModifierCall) -> bool:
 
 
 def _is_rest(modifier: ir.ModifierCall) -> bool:
-    """Whether it is the speed of an actor that stands, as all do of which nothing is stated."""
+    """Whether the speed is zero, which is the default of an actor."""
     speed = _value(modifier, "speed") if modifier.name == "speed" else None
     return speed is not None and ir.constant(speed) == 0.0
 

@@ -1,9 +1,9 @@
-"""Initial placement: what holds at the start of the run is taken out of the tree.
+"""Initial placement: the statements about the start of the run, taken out of the tree.
 
-Only invocations that begin at the very start can place an actor. Their `at: start` modifiers
-become its placement, modifiers that hold throughout hold at the start as well, and an
-`assign_position` that says nothing else disappears. An `at: start` further on stays in the tree:
-it has to hold by then.
+Only invocations that begin with the scenario can place an actor. Their `at: start` modifiers become
+its placement, modifiers of the whole phase apply to the start as well, and an `assign_position`
+without further content disappears. A later `at: start` stays in the tree: it applies to the start
+of its phase.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from osc2tx.lowering.placement.implied_starts import FirstAction, implied_starts
 from osc2tx.lowering.values.shape_arguments import first_value, says_start
 from osc2tx_shared.classes import dataclass, replace
 
-# Of these an actor has one at the start, whatever its origin.
+# Of these an actor has one at the start, of any origin.
 _PLACES = frozenset({"lane", "position"})
 
 # Types of routes of a map, on which an actor can start.
@@ -69,7 +69,7 @@ class PlacementLowering:
     def _rewrite(
         self, node: ir.Behavior, time: ir.Expression | None, *, is_start: bool
     ) -> ir.Behavior | None:
-        """Rewrite a node that has a time, its own or that of what it is a member of."""
+        """Rewrite a node with a time limit, its own or that of its composition."""
         match node:
             case ir.Serial():
                 return self._composition(node, self._serial_members(node, time, is_start=is_start))
@@ -120,7 +120,7 @@ class PlacementLowering:
             what = _subject(modifier)
             self._check_alternatives(found.modifiers.get(what), modifier, actor)
             if modifier.at == "start" or what not in found.modifiers:
-                # What holds throughout stays in the tree as well, and its comments with it.
+                # A modifier of the whole phase stays in the tree as well, with its comments.
                 comments = modifier.comments if modifier.at == "start" else ()
                 found.modifiers[what] = replace(modifier, at="start", comments=comments)
         rest = tuple(m for m in node.modifiers if m.at != "start")
@@ -151,12 +151,12 @@ class PlacementLowering:
             self._ctx.unsupported(
                 "OSC508",
                 second.span,
-                f"`{actor}` starts elsewhere in another alternative of `one_of`",
+                f"`{actor}` has another start in another alternative of `one_of`",
                 help="let an action before the `one_of` place it",
             )
 
     def _later(self, node: ir.Invoke, time: ir.Expression | None) -> ir.Invoke:
-        """Leave an action where it stands; but for its path, which places its actor anyway."""
+        """Keep an action in the tree; only its path places its actor."""
         if isinstance(node.actor, ir.FieldRef):
             actor = node.actor.name
             node = self._begin_on_path(node, actor)
@@ -174,14 +174,14 @@ class PlacementLowering:
                 self._ctx.unsupported(
                     "OSC508",
                     modifier.span,
-                    f"`{actor}` drives along another path already",
-                    help="give it one path",
+                    f"`{actor}` already follows another path",
+                    help="assign one path",
                 )
         return replace(node, modifiers=tuple(m for m in node.modifiers if m.name != START))
 
 
 def can_place(modifier: ir.ModifierCall) -> bool:
-    """Whether a modifier says something about a single instant, and so can place an actor."""
+    """Whether a modifier states a single instant, and so can place an actor."""
     entry = catalogue().modifiers.get(modifier.name)
     return entry is not None and entry.combining.starts
 
@@ -200,7 +200,7 @@ def _path_of(modifier: ir.ModifierCall) -> str:
 
 
 def _places(modifier: ir.ModifierCall) -> bool:
-    """Whether a modifier says where or how an actor is at an instant."""
+    """Whether a modifier states the position or motion of an actor at an instant."""
     if modifier.name == "along":
         return any(argument.value.type.name in ROUTES for argument in modifier.arguments)
     return can_place(modifier) and says_start(modifier)
@@ -216,7 +216,7 @@ def _subject(modifier: ir.ModifierCall) -> str:
 def _pairs_alike(
     modifiers: Sequence[ir.ModifierCall],
 ) -> Iterator[tuple[ir.ModifierCall, ir.ModifierCall]]:
-    """Yield the first modifier about a thing, with each further one."""
+    """Yield the first modifier of each topic, with each further one."""
     seen: dict[str, ir.ModifierCall] = {}
     for modifier in modifiers:
         first = seen.setdefault(_subject(modifier), modifier)
@@ -225,7 +225,7 @@ def _pairs_alike(
 
 
 def report_twice(ctx: LoweringContext, first: ir.ModifierCall, second: ir.ModifierCall) -> None:
-    """Report a modifier that says a second time how an actor starts."""
+    """Report a modifier that states the start of an actor a second time."""
     ctx.sink.report(
         "OSC508",
         second.span,
@@ -266,14 +266,14 @@ def merged(ctx: LoweringContext, placements: Sequence[ir.Placement]) -> tuple[ir
 
 
 def _beyond(implied: ir.Placement, stated: ir.Placement | None) -> ir.Placement:
-    """Return what is implied of a start on which what is stated is silent."""
+    """Return the implied modifiers of a start that no stated modifier covers."""
     known = {_subject(modifier) for modifier in stated.modifiers} if stated is not None else set()
     left = (modifier for modifier in implied.modifiers if _subject(modifier) not in known)
     return replace(implied, modifiers=tuple(left))
 
 
 def is_instant(node: ir.Behavior) -> bool:
-    """Whether what follows a member still begins at the start."""
+    """Whether the successor of a member still begins at the start."""
     match node:
         case ir.Serial() | ir.Parallel():
             return all(is_instant(member) for member in node.members)
@@ -288,7 +288,7 @@ def is_instant(node: ir.Behavior) -> bool:
             return False
 
 
-# Arguments of `follow_lane` -> the modifier that says the same of the start, and its parameter.
+# Arguments of `follow_lane` -> the equivalent modifier of the start, and its parameter.
 _FOLLOWED = {
     "target": ("along", "route"),
     "offset": ("lateral", "distance"),
@@ -315,7 +315,7 @@ def _followed_lane(node: ir.Invoke) -> Iterator[ir.ModifierCall]:
         yield ir.ModifierCall(span=argument.span, name=name, arguments=(said,), at="start")
 
 
-# Actions along a line -> the modifier that says the same, and its parameter.
+# Actions along a line -> the equivalent modifier, and its parameter.
 _LINES = {
     "follow_path": ("along", "route"),
     "replay_path": ("along", "route"),

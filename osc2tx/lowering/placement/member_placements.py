@@ -1,4 +1,4 @@
-"""Placements by modifiers that stand as members of a scenario."""
+"""Placements by modifiers that are members of a scenario."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def member_placements(
     statements: tuple[ast.Statement, ...],
     standing: StandingModifiers,
 ) -> tuple[ir.Placement, ...]:
-    """Lower modifiers that stand as members: only those that place an actor."""
+    """Lower modifiers that are members: only those that place an actor."""
     placements = []
     for statement in statements:
         if not isinstance(statement, ast.ModifierApplication):
@@ -32,7 +32,7 @@ def member_placements(
             is_start = modifier.at == "start" and can_place(modifier)
             is_placing = is_start or bool(owner_of(modifier))
             if stands(modifier) and (actor is None or isinstance(actor, ir.FieldRef)):
-                continue  # it stands with each of them
+                continue  # it belongs to each of them
             if not is_placing or not isinstance(actor, ir.FieldRef):
                 whose = "" if statement.actor is None else f" of `{statement.actor.span.text}`"
                 ctx.unsupported(
@@ -55,7 +55,7 @@ def member_placements(
 
 
 def _is_method_call(ctx: LoweringContext, statement: ast.ModifierApplication) -> bool:
-    """Whether a member calls a method, as a dialect lets it; without effect, if it computes."""
+    """Whether a member calls a method, as a dialect allows; a computation has no effect."""
     callee = ctx.model.binding_of(statement).callee
     if not isinstance(callee, sym.MethodSymbol):
         return False
@@ -63,7 +63,7 @@ def _is_method_call(ctx: LoweringContext, statement: ast.ModifierApplication) ->
         ctx.unsupported(
             "OSC503",
             statement.span,
-            "an external method is called at a time of the scenario",
+            "an external method is called at an instant of the scenario",
             help=f"write `call {statement.span.text}` in its `do`",
         )
     return True

@@ -36,7 +36,7 @@ def lower_arguments(
 
 
 def _refuse_added_member(ctx: LoweringContext, value: ir.Expression, type_: types.Type) -> None:
-    """Refuse what the library cannot know: a member that the user adds to one of its enums."""
+    """Refuse a member that the user adds to an enum of the library, which cannot know it."""
     if not isinstance(value, ir.EnumValue) or not isinstance(type_, types.EnumType):
         return
     enum = type_.symbol
@@ -46,7 +46,7 @@ def _refuse_added_member(ctx: LoweringContext, value: ir.Expression, type_: type
             "OSC503",
             value.span,
             f"the library does not know `{value.member}`, which is added to `{enum.name}`",
-            help=f"say one of {known}",
+            help=f"use one of {known}",
         )
 
 

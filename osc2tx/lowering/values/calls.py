@@ -21,7 +21,7 @@ from osc2tx_shared.classes import replace
 
 CallNode: TypeAlias = ast.Call | ast.CallDirective
 
-# Methods of the library that make a value of their arguments; all others ask world or map.
+# Methods of the library that compute a value of their arguments; all others read world or map.
 PURE_METHODS = frozenset(
     {"environment.local_to_unix_time", "map.create_route"}
     | {f"map.create_{name}" for name in ("route_point", "xyz_point", "odr_point")}
@@ -32,7 +32,7 @@ PURE_METHODS = frozenset(
     | {"position_3d.norm", "translational_velocity_3d.norm", "translational_acceleration_3d.norm"}
 )
 
-# Of these the ones that ask not even their object.
+# Of these the ones that do not read their object.
 STATIC_METHODS = frozenset({"environment.local_to_unix_time"})
 
 

@@ -98,7 +98,7 @@ def ordered_range(
 
 
 def _is_sign(node: ast.Unary, operand: ast.Expression) -> bool:
-    """Return whether a minus stands right before a number, so that it belongs to the literal."""
+    """Return whether a minus directly precedes a number, so that it belongs to the literal."""
     is_minus = node.operator is ast.UnaryOperator.NEGATE
     return is_minus and operand.span.start == node.span.start + 1
 
@@ -138,7 +138,7 @@ def _lower_binary(ctx: LoweringContext, node: ast.Binary) -> ir.Expression | Non
 def _known_logic(
     operator: ast.BinaryOperator, left: ir.Expression, right: ir.Expression
 ) -> ir.Expression | None:
-    """Return what `and` or `or` comes to if one side is known when compiling, such as `.is(T)`."""
+    """Return the value of `and` or `or` if one side is known at compile time, such as `.is(T)`."""
     if operator not in (ast.BinaryOperator.AND, ast.BinaryOperator.OR):
         return None
     decisive = operator is ast.BinaryOperator.OR

@@ -18,7 +18,7 @@ ARGUMENTS = ("module", "name")
 
 
 def listed_arguments(body: ast.Node) -> tuple[ast.Argument, ...]:
-    """Return the arguments of an external body that list what its function gets."""
+    """Return the arguments of an external body that list the arguments of its function."""
     if not isinstance(body, ast.ExternalBody):
         return ()
     return tuple(
@@ -33,10 +33,10 @@ def listed_arguments(body: ast.Node) -> tuple[ast.Argument, ...]:
 def lower_external(
     ctx: LoweringContext, method: sym.MethodSymbol, body: ast.ExternalBody
 ) -> ir.External | None:
-    """Lower `external python(module: "m", name: "f")`; the name may be left out.
+    """Lower `external python(module: "m", name: "f")`; the name is optional.
 
-    The function gets the object, if the method belongs to one, and the parameters of the method. It
-    gets the parameters alone where they stand behind the name, as in `param: x`.
+    The function gets the object, if the method belongs to one, and the parameters of the method. If
+    they follow the name, as in `param: x`, it gets only these.
     """
     where = ".".join(body.path)
     if tuple(body.path) != LANGUAGE:
@@ -104,9 +104,9 @@ def _types(member: sym.Member) -> Iterator[sym.TypeSymbol]:
 def overriding_methods(
     ctx: LoweringContext, method: sym.MethodSymbol
 ) -> tuple[sym.MethodSymbol, ...]:
-    """Return the methods of subtypes that stand for a method, the most special types first.
+    """Return the overriding methods of subtypes, the most derived types first.
 
-    Only types of which the program has objects count.
+    Only types with objects in the program count.
     """
     owner = method.owner
     if not isinstance(owner, sym.ActorSymbol | sym.StructSymbol):

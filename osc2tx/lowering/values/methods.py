@@ -103,7 +103,7 @@ def _type_of(owner: sym.TypeSymbol) -> ir.ValueType:
 
 
 def is_undefined(method: sym.MethodSymbol) -> bool:
-    """Whether a method has no body of its own."""
+    """Whether a method has no body."""
     return method.node is None or isinstance(method.node.body, ast.UndefinedBody)
 
 

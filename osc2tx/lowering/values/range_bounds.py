@@ -6,7 +6,7 @@ from osc2tx import ir
 
 
 def with_bounds(value: ir.Expression) -> ir.Expression:
-    """Return a value; a range by its bounds, whatever gives it (§7.3.5.2.2)."""
+    """Return a value; a range of any origin by its bounds (§7.3.5.2.2)."""
     lower: ir.Expression
     upper: ir.Expression
     match value:

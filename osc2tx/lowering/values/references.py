@@ -20,10 +20,10 @@ from osc2tx_shared.classes import replace
 def lower_name(
     ctx: LoweringContext, node: ast.EnumLiteral | ast.NameExpression, type_: ir.ValueType
 ) -> ir.Expression | None:
-    """Lower a name that stands alone."""
+    """Lower a single name."""
     match ctx.model.symbol_of(node):
         case sym.EnumMemberSymbol(value=value, enum=enum):
-            # Members of equal value are one (§7.3.3): the first of them stands for all.
+            # Members of equal value are one (§7.3.3), with the name of the first.
             name = next(m.name for m in enum.members.values() if m.value == value)
             enum_type = ir.ValueType(ir.Kind.ENUM, enum.name)
             return ir.EnumValue(span=node.span, type=enum_type, member=name, value=value)
@@ -55,10 +55,10 @@ def lower_name(
 
 
 def alias_of(ctx: LoweringContext, field: sym.FieldSymbol) -> ast.Expression | None:
-    """Return the target of a field that is only another name, and is not declared itself.
+    """Return the target of a field that is only another name for it, and is not declared itself.
 
-    That is another actor (`other: vehicle = npc`) unless an invocation hands in one, or a quantity
-    that a dialect names by a text.
+    This is another actor (`other: vehicle = npc`) unless an invocation passes one, or a quantity
+    that a dialect names by a string.
     """
     if isinstance(field.default, ast.StringLiteral):
         return ctx.model.quantities.get(field.default)
@@ -66,7 +66,7 @@ def alias_of(ctx: LoweringContext, field: sym.FieldSymbol) -> ast.Expression | N
 
 
 def other_actor(ctx: LoweringContext, field: sym.FieldSymbol) -> ast.NameExpression | None:
-    """Return the actor that is the default of one, or that a constraint says it is."""
+    """Return the actor that is the default of an actor, or that a constraint equates with it."""
     if not isinstance(field.type, types.ActorType):
         return None
     if isinstance(field.default, ast.NameExpression):
@@ -131,7 +131,7 @@ def _of_label(
         "OSC503",
         node.span,
         f"`{node.span.text}` has no value",
-        help=f"give `{label.name}` the value as an argument, further up in the text",
+        help=f"pass the value to `{label.name}` as an argument, above this line",
     )
     return None
 
@@ -189,9 +189,7 @@ def lower_key(ctx: LoweringContext, key: Key, span: Span) -> ir.Expression | Non
     elif lengths := [n for n in range(2, len(key) + 1) if key[:n] in ctx.given]:
         expression, rest = ctx.given[key[: lengths[0]]], list(key[lengths[0] :])
     else:
-        ctx.unsupported(
-            "OSC502", span, "this constraint is about something that has no value of its own"
-        )
+        ctx.unsupported("OSC502", span, "the subject of this constraint has no value")
         return None
     for field in rest:
         if isinstance(field, sym.FieldSymbol) and expression is not None:
@@ -200,7 +198,7 @@ def lower_key(ctx: LoweringContext, key: Key, span: Span) -> ir.Expression | Non
 
 
 def _place_of_actor(key: Key) -> int | None:
-    """Return where in a path the implicit field `actor` of a behavior stands."""
+    """Return the index of the implicit field `actor` of a behavior in a path."""
     places = (
         n for n, part in enumerate(key) if isinstance(part, sym.FieldSymbol) and is_actor(part)
     )
@@ -213,7 +211,7 @@ def is_actor(field: sym.FieldSymbol) -> bool:
 
 
 def element_of(ctx: LoweringContext, node: ast.Index) -> ir.FieldRef | None:
-    """Return an element of a list that is an object of its own (§7.3.5.2.1)."""
+    """Return an element of a list that is a declared object (§7.3.5.2.1)."""
     symbol = ctx.model.symbol_of(node.base)
     if ctx.place is not None:
         key = ctx.place.locate(node.base)
@@ -225,9 +223,9 @@ def element_of(ctx: LoweringContext, node: ast.Index) -> ir.FieldRef | None:
 
 
 def _given(ctx: LoweringContext, node: ast.Expression) -> ir.Expression | None:
-    """Return the value of a parameter of an invocation or modifier, in what that says.
+    """Return the value of a parameter of an invocation or modifier, in its own text.
 
-    Elsewhere a name that has a value is the duration of the scenario.
+    Elsewhere such a name is the duration of the scenario.
     """
     symbol = ctx.model.symbol_of(node)
     own = None if symbol is None else (symbol,)

@@ -26,7 +26,7 @@ SECOND = ir.Unit("s", 1.0, 0.0, is_standard=True)
 def with_shapes(
     ctx: LoweringContext, binding: Binding, arguments: tuple[ir.Argument, ...]
 ) -> tuple[ir.Argument, ...]:
-    """Tell the runtime the methods of the shapes among the arguments of a modifier."""
+    """Pass the methods of the shapes among the arguments of a modifier to the runtime."""
     if binding.callee.origin != "library":
         return arguments
     nodes = {parameter.name: value for parameter, value in binding.arguments}
@@ -50,7 +50,7 @@ def is_left_open(ctx: LoweringContext, method: sym.MethodSymbol, receiver: ast.E
 
 
 def says_start(modifier: ir.ModifierCall) -> bool:
-    """Whether a modifier that holds throughout says what its value is at the start."""
+    """Whether a modifier of the whole phase states its value at the start."""
     if modifier.at == "start":
         return True
     courses = [argument for argument in modifier.arguments if argument.parameter in COURSE]

@@ -122,7 +122,7 @@ def _tests(
     wanted: sym.TypeSymbol,
     span: Span,
 ) -> Iterator[ir.Expression]:
-    """Yield what must hold for an object to be of a subtype, from the general to the special."""
+    """Yield the conditions for an object to be of a subtype, from the most general one on."""
     below = [type_ for type_ in supertypes(wanted) if not is_subtype(given, type_)]
     plain = [type_ for type_ in below if getattr(type_, "condition", None) is None]
     for type_ in reversed(below):

@@ -1,1 +1,1 @@
-"""Checks of what members contain: behaviors, modifiers, constraints, coverage, events."""
+"""Checks of the contents of members: behaviors, modifiers, constraints, coverage, events."""

@@ -41,7 +41,7 @@ COMPOSITIONS = frozenset(operator.value for operator in ast.CompositionOperator)
 
 
 def resolve_label(r: Resolution, label: LabelSymbol, env: Environment) -> None:
-    """Give a label the type of what it names."""
+    """Give a label the type of its member."""
     match label.node:
         case ast.Invocation():
             callee = resolve_invocation(r, label.node, env)
@@ -180,7 +180,7 @@ def _check_invocation(r: Resolution, node: ast.Invocation, env: Environment) -> 
 
 
 def _note_first_come(r: Resolution, node: ast.Invocation | ast.Composition) -> None:
-    """Say what a duration beside an `until` means where the dialect has them compete."""
+    """Warn that the first of a duration and an `until` ends a member in the dialect."""
     for member in node.with_members:
         if isinstance(member, ast.UntilDirective):
             r.relaxes(
@@ -250,7 +250,7 @@ def _find_of_actor(
 
 
 def _report_circle(r: Resolution, actor: ast.Expression, env: Environment) -> None:
-    """Report an actor that is looked for in the invocation that it is the actor of."""
+    """Report an actor that is a member of its own invocation."""
     root = actor
     while isinstance(root, ast.MemberAccess):
         root = root.base
@@ -262,7 +262,7 @@ def _report_circle(r: Resolution, actor: ast.Expression, env: Environment) -> No
         r.report(
             "OSC301",
             actor.span,
-            f"the actor depends on itself by the label `{root.span.text}`",
+            f"the actor depends on itself through the label `{root.span.text}`",
             help="name an actor before the dot",
         )
 
@@ -293,7 +293,7 @@ def _find_without_actor(r: Resolution, name: ast.Name, env: Environment) -> Call
     known = {n for layer in r.scope.layers() for n in layer.behaviors}
     help_: Help
     if name.text in OUTPUT:
-        help_ = "`record(…)` keeps values, and `call …` an external method writes them"
+        help_ = "`record(…)` stores values; `call …` of an external method writes them"
     else:
         help_ = name_meant(name.span, known)
         help_ = help_ or f"declare it, `scenario {name}:`, or import the file that does"
@@ -323,11 +323,11 @@ def check_with(
 
     Args:
         r: The state of the pass.
-        members: What is in it.
-        env: Where it stands.
+        members: Its contents.
+        env: Its environment.
         invoked: The behavior that it belongs to.
         actor: The actor that modifiers may leave out.
-        is_composition: It is that of a composition: its modifiers are as those of a scenario.
+        is_composition: It belongs to a composition: its modifiers are like those of a scenario.
     """
     for member in members:
         match member:

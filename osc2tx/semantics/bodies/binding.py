@@ -37,7 +37,7 @@ from osc2tx_shared.rules import Rule, violations
 
 
 class _Written(dict[str, ast.Expression]):
-    """Arguments by parameter; what they are is nothing that these rules ask for."""
+    """Arguments by parameter; these rules do not read the values."""
 
     def word(self, name: str) -> None:
         """No rule looks at words."""
@@ -109,9 +109,9 @@ def _meant(
     value: ast.Expression,
     given: Type,
 ) -> Help:
-    """Say what is meant by a positional argument that does not fit the first parameter.
+    """Return the help for a positional argument that does not fit the first parameter.
 
-    That is the one other parameter that it fits, or the modifier of the action that states such a
+    It names the only other parameter that it fits, or the modifier of the action that states such a
     value: `drive(50kph)`.
     """
     written = {argument.name.text for argument in node.arguments if argument.name is not None}
@@ -161,7 +161,7 @@ def bind_call(
             r.report(
                 "OSC404",
                 span,
-                f"`{callee.name}` misses its argument `{required.name}`",
+                f"`{callee.name}` lacks its argument `{required.name}`",
                 labels=declared_here(required),
             )
     r.bindings[node] = Binding(callee, receiver, pairs)
@@ -187,7 +187,7 @@ def _match(
     callee: Symbol,
     env: Environment,
 ) -> Pairs:
-    """Pair arguments with parameters in source order; report what does not pair."""
+    """Pair arguments with parameters in source order; report arguments without a parameter."""
     arguments = node.arguments
     pairs: list[tuple[Parameter, ast.Expression]] = []
     taken: set[Parameter] = set()
@@ -242,7 +242,7 @@ def _is_left_out(r: Resolution, argument: ast.Argument, env: Environment) -> boo
         and r.relaxes(
             "OSC627",
             argument.span,
-            "`None` is no value; the argument is taken as left out",
+            "`None` is no value; the argument is taken as omitted",
             key=argument.span.text,
             help=f"leave `{argument.span.text}` out",
         )
@@ -269,7 +269,7 @@ def _find_alias(
     callee: Symbol,
     implied: list[tuple[Parameter, ast.Expression]],
 ) -> Parameter | None:
-    """Return the parameter that another name stands for; add what the name implies."""
+    """Return the parameter that another name denotes; add the arguments that the name implies."""
     named = {p.name: p for p in parameters}
     alias = parameter_alias(r, callee, name, named)
     if alias is None:

@@ -54,7 +54,7 @@ def _check_affects_parameter(r: Resolution, expression: ast.Expression) -> None:
 
 
 def root_of(path: ast.Expression) -> ast.Expression:
-    """Return what a path starts with."""
+    """Return the first name of a path."""
     while isinstance(path, ast.MemberAccess | ast.Index | ast.Cast):
         path = path.base
     return path

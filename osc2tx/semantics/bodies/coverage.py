@@ -76,7 +76,7 @@ def _by_name(r: Resolution, node: ast.CoverageDeclaration) -> dict[str, ast.Expr
         else:
             found[name] = argument.value
     if "name" not in found and "override" not in found:
-        r.report("OSC404", node.span, f"`{node.kind}` misses its argument `name`")
+        r.report("OSC404", node.span, f"`{node.kind}` lacks its argument `name`")
     return found
 
 
@@ -105,7 +105,7 @@ def _repeated(owner: TypeSymbol | None) -> Mapping[int, list[tuple[Item, Item]]]
 
 
 def _item_type(r: Resolution, arguments: Arguments, env: Environment) -> Type:
-    """Type what is sampled: one value, of the name's field unless an expression is given."""
+    """Type the sampled expression: one value, of the field of that name by default."""
     name = arguments.get("name")
     expression = arguments.get("expression", name)
     if name is not None and text_of(name) is None and not isinstance(name, ast.ItExpression):
@@ -170,7 +170,7 @@ def _check_unit(
 def _check_simple(
     r: Resolution, node: ast.CoverageDeclaration, arguments: Arguments, env: Environment
 ) -> None:
-    """Check the arguments that do not depend on what is sampled."""
+    """Check the arguments that do not depend on the sampled value."""
     if "event" in arguments:
         _check_event(r, arguments["event"], env)
     if "text" in arguments:
@@ -233,7 +233,7 @@ def _report_no_item(r: Resolution, name: ast.Expression, known: Mapping[str, Ite
 def _check_override(
     r: Resolution, arguments: Arguments, env: Environment
 ) -> tuple[str | None, Type]:
-    """Check that an item of the same type is refined, and only what may change (§7.5.6)."""
+    """Check that an item of the same type is refined, in arguments that may change (§7.5.6)."""
     for fixed in FIXED:
         if fixed in arguments:
             r.report("OSC412", arguments[fixed].span, f"an override cannot change `{fixed}`")

@@ -26,9 +26,9 @@ class Item:
     """A declared item.
 
     Attributes:
-        name: What overrides and crosses call it.
+        name: Its name in overrides and crosses.
         node: Its declaration.
-        arguments: What the declaration gives, by name of the parameter.
+        arguments: The arguments of the declaration, by name of the parameter.
     """
 
     name: str
@@ -42,7 +42,7 @@ class Item:
 
     @property
     def expression(self) -> ast.Expression | None:
-        """What is sampled; `None` for a cross of other items."""
+        """The sampled expression; `None` for a cross of other items."""
         if "items" in self.arguments:
             return None
         return self.arguments.get("expression", self.arguments["name"])
@@ -92,7 +92,7 @@ Arguments = Mapping[str, ast.Expression]
 
 
 def check_slices(r: Resolution, arguments: Arguments, item: Type, env: Environment) -> None:
-    """Check the arguments that say which values count, and as one."""
+    """Check the arguments that select and group values."""
     for other in ("range", "every"):
         if "buckets" in arguments and other in arguments:
             r.report("OSC412", arguments[other].span, f"`buckets` and `{other}` exclude each other")

@@ -88,7 +88,7 @@ def resolve_event_path(r: Resolution, path: ast.Expression, env: Environment) ->
 
 
 def resolve_event_name(r: Resolution, name: ast.Name, env: Environment) -> Symbol | None:
-    """Return the event of a plain name; a dialect may let its use declare it."""
+    """Return the event of a simple name; in a dialect its use may declare it."""
     symbol = lookup_value(r, name, env)
     if symbol is not None:
         return symbol

@@ -40,11 +40,11 @@ def check_modifier(
     Args:
         r: The state of the pass.
         node: The application.
-        env: Where it stands.
+        env: Its environment.
         invoked: The behavior that is modified; `None` where that is unknown or a composition.
         actor: The actor that may be left out.
-        is_open: What is modified is known only where the modifier around it is applied.
-        is_member: It is a member of a scenario: all that the actor does there is modified.
+        is_open: The modified behavior is known only where the surrounding modifier is applied.
+        is_member: It is a member of a scenario: it modifies all behaviors of the actor there.
     """
     if call_by_statement(r, node, env):
         return
@@ -83,7 +83,7 @@ def _check_override(r: Resolution, node: ast.ModifierApplication) -> None:
     given = {parameter.name for parameter, _ in arguments}
     for name in ("overridden", "by"):
         if name not in given and not _has_unknown_names(r, node):
-            r.report("OSC404", node.modifier.span, f"`override` misses its argument `{name}`")
+            r.report("OSC404", node.modifier.span, f"`override` lacks its argument `{name}`")
     for parameter, value in arguments:
         type_ = r.types.get(value, ERROR)
         if parameter.name in ("overridden", "by") and not isinstance(
@@ -207,7 +207,7 @@ def instead_of_scenario(invoked: Symbol | None, name: str, written: str) -> str 
 
     Args:
         invoked: The behavior that is invoked; an action gets no advice.
-        name: Of the modifier.
+        name: Name of the modifier.
         written: Its application.
     """
     if not isinstance(invoked, ScenarioSymbol):
@@ -260,7 +260,7 @@ def _report_misfit(
                 labels=declared_here(modifier),
             )
             return
-    if modifier.actor is None:  # what it modifies is unknown, which has been reported
+    if modifier.actor is None:  # the modified behavior is unknown, which is reported already
         return
     if actor is None:
         r.report(

@@ -46,10 +46,11 @@ class Collector:
 
     Attributes:
         scope: The layer to fill.
-        sink: Where reports go.
+        sink: Receives the diagnostics.
         relaxations: The dialect of the file.
         origin: `"user"`, `"library"` or `"prelude"`.
-        null_uses: What the null namespace uses at the start of a file (`import osc.standard`).
+        null_uses: The `use` list of the null namespace at the start of a file (`import
+            osc.standard`).
     """
 
     scope: Scope
@@ -301,7 +302,7 @@ class Collector:
             same_name[:] = [*(each for each in same_name if each is not earlier), member]
 
     def _is_repeated_label(self, member: Member, earlier: Member) -> bool:
-        """Whether the dialect lets a label stand twice; the first one is meant by its name."""
+        """Whether the dialect allows a repeated label; its name denotes the first one."""
         if not isinstance(member, LabelSymbol) or not isinstance(earlier, LabelSymbol):
             return False
         if "OSC625" not in self.relaxations.dialect.relaxed:

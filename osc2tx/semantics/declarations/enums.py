@@ -50,7 +50,7 @@ def _target(
     value: ast.EnumLiteral | ast.NameExpression,
     member: EnumMemberSymbol,
 ) -> EnumMemberSymbol | None:
-    """Return the member whose value another one takes: of its own enum, or of any (§7.3.3)."""
+    """Return the member whose value another member takes: of its enum, or of any (§7.3.3)."""
     node = r.scope.enum_node(member)
     context = Context() if node is None else r.scope.context_of(node)
     if isinstance(value, ast.EnumLiteral):

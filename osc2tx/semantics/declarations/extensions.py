@@ -21,7 +21,7 @@ def apply_extension(
     collector: Collector,
     node: ast.EnumExtension | ast.TypeExtension | ast.PrimitiveExtension,
 ) -> None:
-    """Add what an extension declares to the type that it names (§7.3.9)."""
+    """Add the declarations of an extension to its type (§7.3.9)."""
     context = r.scope.contexts[node]
     match node:
         case ast.EnumExtension():

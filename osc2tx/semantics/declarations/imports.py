@@ -28,14 +28,14 @@ MODULES = {
 
 @dataclass(slots=True, eq=False)
 class ImportWalk:
-    """Follows imports depth first; every file counts once, at its first place.
+    """Follows imports depth first; every file counts once, at its first import.
 
     Attributes:
         load: Finds and parses a file that is imported by name; `None` if there is no such file.
-        import_help: Says what may help if there is no module of a name.
-        sink: Where reports go.
+        import_help: Returns the help for a module that is not found.
+        sink: Receives the diagnostics.
         relaxations: The dialect of the file.
-        files: What was found, imported files before those that import them.
+        files: The files, each after those that it imports.
         modules: Parts of the library that are needed, `"types"` or `"all"`.
         is_legacy: Whether library names need no prefix in the null namespace.
     """
@@ -146,7 +146,7 @@ class ImportWalk:
 
 
 def no_help(statement: ast.Import) -> str | None:
-    """Say nothing: what has no files has no place where a module could be."""
+    """Return no help: without files there is no folder for a module."""
     return None
 
 

@@ -1,7 +1,7 @@
 """Lists of actors and structs that constraints describe element by element (§7.3.5.2.1).
 
-`keep(l[k].x == 1m)` says that the list has an element `k`, `keep(l.size() == n)` how many it has.
-The elements are objects like any other; they have no names but those of their places.
+`keep(l[k].x == 1m)` states that the list has an element `k`, `keep(l.size() == n)` states its size.
+The elements are objects like any other; their names are their indices.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ def list_elements(
 def _constraints(
     owner: ScenarioSymbol | ActionSymbol,
 ) -> Iterator[tuple[ast.KeepConstraint, FieldSymbol | None]]:
-    """Yield the constraints of a behavior, with what `it` is in them."""
+    """Yield the constraints of a behavior, with their meaning of `it`."""
     for statement in owner.statements:
         if isinstance(statement, ast.KeepConstraint):
             yield statement, None
@@ -70,10 +70,10 @@ class _Reader:
     """Reads the statements of a constraint about lists.
 
     Args:
-        references: What names stand for.
-        bindings: What calls mean.
-        it: What `it` is.
-        sizes: How many elements lists have, at least; sizes are added.
+        references: The meanings of names.
+        bindings: The meanings of calls.
+        it: The meaning of `it`.
+        sizes: The minimum sizes of lists; sizes are added.
         whole: Fields with a value as a whole; fields are added.
     """
 
@@ -89,7 +89,7 @@ class _Reader:
         self._sizes, self._whole = sizes, whole
 
     def read(self, expression: ast.Expression) -> None:
-        """Note what an expression that has to hold says."""
+        """Record the statements of an expression that is required to be true."""
         if isinstance(expression, ast.Binary) and expression.operator is ast.BinaryOperator.EQUAL:
             self._equality(expression.left, expression.right)
         for path in paths_of(expression):

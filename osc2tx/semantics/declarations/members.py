@@ -20,7 +20,7 @@ from osc2tx.syntax import ast
 
 
 class Basics(TypedDict):
-    """What every symbol is made of."""
+    """The arguments that all symbols have."""
 
     name: str
     namespace: str

@@ -15,7 +15,7 @@ from osc2tx.syntax import ast
 
 
 def check_physical_types(r: Resolution) -> None:
-    """Check that each dimension has one type: a unit would not say which it is of."""
+    """Check that each dimension has one type: the type of a unit would be ambiguous."""
     seen: dict[Dimension, PhysicalTypeSymbol] = {}
     for layer in reversed(list(r.scope.layers())):
         for symbol in layer.declared:
@@ -31,7 +31,7 @@ def check_physical_types(r: Resolution) -> None:
 
 
 def _is_declared(r: Resolution, symbol: PhysicalTypeSymbol) -> bool:
-    """Whether the declaration stands: no other one has its name and namespace."""
+    """Whether the declaration is effective: no other one has its name and namespace."""
     return any(symbol is known for known in r.scope.types.get(symbol.name, ()))
 
 

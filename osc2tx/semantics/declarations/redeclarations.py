@@ -1,10 +1,10 @@
 """Declarations that repeat what is known: the library's units, bare declarations of a prelude.
 
-ScenarioRunner has no library, so its scenarios bring units, and actors and modifiers of which they
-only say that they exist. A unit that is declared again is the library's if it means the same. If it
-does not, a number may be in either of the two: its use is an error. What several files declare
-alike, because each brings its own, is one thing; within a file it is a mistake. An actor or
-modifier without base, body or target is that of the prelude; any other is a new one.
+ScenarioRunner has no library, so its scenarios declare units, and actors and modifiers without
+content. A unit that is declared again is the library's if it has the same value. Otherwise a number
+may be in either unit: its use is an error. Equal declarations of several files are one declaration;
+within a file they are a mistake. An actor or modifier without base, body or target is that of the
+prelude; any other is a new one.
 """
 
 from __future__ import annotations
@@ -28,10 +28,10 @@ ROUNDED = 1e-3
 
 @dataclass(slots=True, eq=False)
 class Repeats:
-    """Tells declarations that repeat something from those that collide with it.
+    """Distinguishes repeated declarations from conflicting ones.
 
     Attributes:
-        sink: Where reports go.
+        sink: Receives the diagnostics.
         relaxations: The dialect of the file.
         units: The units of the library that were declared again, by name and file.
     """
@@ -76,7 +76,7 @@ class Repeats:
         return True
 
     def actor(self, node: ast.ActorDeclaration, scope: Scope) -> bool:
-        """Whether an actor only says that there is one, and a prelude says more."""
+        """Whether an actor is declared without content, and the prelude declares it."""
         if node.base is not None or node.members:
             return False
         known = any(
@@ -86,7 +86,7 @@ class Repeats:
         return known and self._is_bare("actor", node.name.text, node.name.span)
 
     def modifier(self, node: ast.ModifierDeclaration, scope: Scope) -> bool:
-        """Whether a modifier only says that there is one, and a prelude says more."""
+        """Whether a modifier is declared without content, and the prelude declares it."""
         name, actor = node.name.name, node.name.actor
         if node.behavior is not None or node.members or actor is None:
             return False

@@ -60,7 +60,7 @@ def resolve_declarations(r: Resolution, collector: Collector) -> None:
     owners = r.scope.own_types()
     for owner in owners:
         _resolve_members(r, owner)
-    # Bases first: an overriding method takes over the namespace of what it overrides.
+    # Bases first: an overriding method takes the namespace of the overridden one.
     for owner in sorted(owners, key=lambda owner: len(list(supertypes(owner)))):
         for member in owner.members.values():
             _check_redefinition(r, owner, member)
@@ -124,7 +124,7 @@ def _resolve_behavior_base(r: Resolution, symbol: Symbol, context: Context) -> N
 def _modified_behavior(
     r: Resolution, modifier: ModifierSymbol, name: ast.BehaviorName, context: Context
 ) -> CallableBehavior | None:
-    """Return what a modifier is for; a plain name is one of its actor's, if that has one."""
+    """Return the target of a modifier; a simple name prefers a behavior of its actor."""
     if name.actor is None and modifier.actor is not None:
         behavior = find_behavior(r, modifier.actor, name.name, context)
         if behavior is not None:
@@ -164,10 +164,10 @@ def _resolve_members(r: Resolution, owner: TypeSymbol) -> None:
 
 
 def _drop_redeclared_life_cycle(owner: TypeSymbol) -> None:
-    """Take `event start` and the like for what is there already (§7.3.10.3).
+    """Identify `event start` and the like with the predefined events (§7.3.10.3).
 
-    One with parameters or a specification says something else: it is an event of the scenario's
-    own, which overrides the predefined one (§7.3.10.2).
+    An event with parameters or a specification is an event of the scenario itself, which overrides
+    the predefined one (§7.3.10.2).
     """
     if isinstance(owner, ScenarioSymbol | ActionSymbol):
         for name in LIFE_CYCLE:
@@ -209,7 +209,7 @@ def _resolve_field(r: Resolution, symbol: FieldSymbol) -> None:
 
 
 def _constraints_of(type_: TypeSymbol) -> list[ast.KeepConstraint]:
-    """Return what a type demands of its instances, the demands of its supertypes first."""
+    """Return the requirements of a type on its instances, those of its supertypes first."""
     ancestry = reversed(list(supertypes(type_)))
     return [s for t in ancestry for s in t.statements if isinstance(s, ast.KeepConstraint)]
 
@@ -249,7 +249,7 @@ def _check_redefinition(r: Resolution, owner: TypeSymbol, member: Member) -> Non
             r.report(
                 "OSC319",
                 member.span,
-                f"`{member.name}` has another signature than what it overrides",
+                f"`{member.name}` differs in its signature from the method that it overrides",
                 labels=declared_here(earlier, "overridden here"),
             )
         return
@@ -268,7 +268,7 @@ def _with_only(method: MethodSymbol) -> Help:
 def _note_nothing_overridden(r: Resolution, owner: TypeSymbol, member: Member) -> None:
     """Warn about an `only` that overrides nothing, where a method has nearly that name.
 
-    The standard allows it (§7.3.7.2), so that a text may say it of all its methods.
+    The standard allows it (§7.3.7.2), so a text may use it for all its methods.
     """
     methods = [
         name
@@ -283,7 +283,7 @@ def _note_nothing_overridden(r: Resolution, owner: TypeSymbol, member: Member) -
 
 
 def _extended_method(r: Resolution, owner: TypeSymbol, member: Member) -> MethodSymbol | None:
-    """Return the method of the same type that a method of an extension stands for."""
+    """Return the method of the same type that a method of an extension replaces."""
     earlier = r.scope.overridden.get(member) if isinstance(member, MethodSymbol) else None
     if earlier is not None:
         _resolve_member(r, earlier)
@@ -293,7 +293,7 @@ def _extended_method(r: Resolution, owner: TypeSymbol, member: Member) -> Method
 
 
 def inherited_member(owner: TypeSymbol, member: Member) -> Member | None:
-    """Return what a member of the same name and namespace is in a supertype."""
+    """Return the member of the same name and namespace in a supertype."""
     for ancestor in supertypes(owner):
         if ancestor is owner:
             continue

@@ -66,7 +66,7 @@ def type_of_symbol(symbol: NamedSymbol) -> Type:
 
 
 def resolve_type(r: Resolution, node: ast.TypeName, context: Context) -> Type:
-    """Return the type that a type name stands for."""
+    """Return the type of a type name."""
     match node:
         case ast.NamedType():
             return _resolve_named(r, node, context)
@@ -95,7 +95,7 @@ def _resolve_list(r: Resolution, node: ast.ListType, context: Context) -> Type:
 
 
 def _resolve_range(r: Resolution, node: ast.RangeType, context: Context) -> Type:
-    if node.span.text.startswith("range"):  # else what is left of a syntax error
+    if node.span.text.startswith("range"):  # otherwise a remnant of a syntax error
         r.needs_standard(node.span, "the type `range of`")
     element = resolve_type(r, node.element, context)
     match element:
@@ -177,16 +177,16 @@ def choose(r: Resolution, candidates: Sequence[S], name: ast.Name, context: Cont
 
 
 def _report_invisible(r: Resolution, found: S, name: ast.Name, context: Context) -> S:
-    """Report a name of a namespace that is not used, and go on as if it were.
+    """Report a name of an unused namespace, and continue as if it were used.
 
-    For the library's namespaces that is one mistake, however many names follow.
+    For the namespaces of the library this is one mistake for all names.
     """
     home = found.namespace
     key = f"{context.namespace} {home}"
     is_library = found.origin == "library"
     if not is_library or r.relaxations.is_new("OSC215", name.span.source.name, key):
         remedy = (
-            f"let `{home}` offer it: `export {found.name}`"
+            f"export it from `{home}`: `export {found.name}`"
             if home in context.uses
             else f"`namespace {context.namespace} use {home}` above it"
         )
@@ -194,7 +194,7 @@ def _report_invisible(r: Resolution, found: S, name: ast.Name, context: Context)
         r.report(
             "OSC215",
             name.span,
-            f"`{name}` is not visible here: it lives in namespace `{home}`",
+            f"`{name}` is not visible here: it is declared in namespace `{home}`",
             help=write(name.span, qualified, f"write `{qualified}`, or {remedy}"),
         )
     return found
@@ -217,7 +217,7 @@ def resolve_actor_name(r: Resolution, name: ast.Name, context: Context) -> Actor
 def resolve_behavior_name(
     r: Resolution, name: ast.BehaviorName, context: Context
 ) -> CallableBehavior | None:
-    """Return the scenario or action that `[actor.]name` stands for."""
+    """Return the scenario or action of `[actor.]name`."""
     if name.actor is None:
         symbol = resolve_type_name(r, name.name, context)
         if symbol is None or isinstance(symbol, ScenarioSymbol | ActionSymbol):
@@ -272,7 +272,7 @@ def report_modifier(r: Resolution, name: ast.Name) -> None:
 
 
 def report_unknown_behavior(r: Resolution, actor: ActorSymbol, name: ast.Name) -> None:
-    """Report that an actor type has no behavior of that name, with what comes near."""
+    """Report that an actor type has no behavior of that name, with similar names."""
     elsewhere = [b for b in r.scope.behaviors_named(name.text) if b.actor is not None]
     ancestry = [(s.name, name.text) for s in supertypes(actor)]
     hint = next((PRELUDE_BEHAVIORS[key] for key in ancestry if key in PRELUDE_BEHAVIORS), None)

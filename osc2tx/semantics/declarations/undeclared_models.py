@@ -16,7 +16,7 @@ KINDS = {
 
 
 def undeclared_model(r: Resolution, name: ast.Name) -> ActorSymbol | None:
-    """Return the actor type that a name stands for, if the dialect takes it for a model."""
+    """Return the actor type of a name that the dialect reads as a model."""
     word = name.text
     if name.namespace is not None or not word[:1].isupper():
         return None

@@ -128,7 +128,7 @@ def infer_cast(r: Resolution, node: ast.Cast, env: Environment) -> Type:
     target = resolve_type(r, node.type, env.context)
     source = r.type_of(node.base, env, target)
     if ERROR not in (source, target) and not can_cast(source, target):
-        r.report("OSC315", node.span, f"a value of `{source}` cannot become `{target}`")
+        r.report("OSC315", node.span, f"a value of `{source}` cannot be converted to `{target}`")
     return target
 
 

@@ -15,7 +15,7 @@ from osc2tx.syntax import ast
 def infer(
     r: Resolution, expression: ast.Expression, env: Environment, expected: Type | None = None
 ) -> Type:
-    """Return the type of an expression; `expected` decides what a bare enum member means.
+    """Return the type of an expression; `expected` decides the enum of a member without one.
 
     Long chains (`a + b + …`, `not not …`) are typed from their far end in a loop, so that their
     length does not matter to the Python stack.

@@ -62,7 +62,7 @@ def infer_list(
 ) -> Type:
     """Type `[a, b]`; lists inside are flattened (§7.4.2.7)."""
     if not node.elements:
-        return ERROR  # what is left of a syntax error
+        return ERROR  # a remnant of a syntax error
     element = expected.element if isinstance(expected, ListType) else None
     types = []
     for item in node.elements:
@@ -99,14 +99,14 @@ def infer_range(
 
 
 def _check_order(r: Resolution, node: ast.RangeLiteral) -> None:
-    """Report a range with the upper bound first: only 2.2 says that the order is free."""
+    """Report a range with the upper bound first: only 2.2 allows both orders."""
     lower, upper = constant_number(r, node.lower), constant_number(r, node.upper)
     if lower is not None and upper is not None and upper < lower:
         ordered = f"[{node.upper.span.text}..{node.lower.span.text}]"
         r.report(
             "OSC323",
             node.span,
-            "the upper bound stands first",
-            help=write(node.span, ordered, f"write `{ordered}`, which it is taken as"),
+            "the upper bound comes first",
+            help=write(node.span, ordered, f"write `{ordered}`: it is read as this range"),
             notes=["from 2.2 on the order is free (`--std 2.2`)"],
         )

@@ -94,9 +94,9 @@ def resolve_call(
 def type_itself(
     r: Resolution, receiver: ast.Expression, method: ast.Name, env: Environment
 ) -> Type | None:
-    """Return the struct or actor type that stands before the dot in place of an instance.
+    """Return the struct or actor type that precedes the dot instead of an instance.
 
-    Sound where the type has no fields, for then all its instances are alike. Of other actor types
+    This is valid if the type has no fields, as all its instances are equal. For other actor types
     it is an object (`type_receivers`).
     """
     if not isinstance(receiver, ast.NameExpression):
@@ -157,9 +157,9 @@ def call_by_statement(r: Resolution, node: ast.ModifierApplication, env: Environ
         r.relaxes(
             "OSC618",
             node.span,
-            f"the result of `{node.actor.span.text}.{node.modifier}()` is used nowhere",
+            f"the result of `{node.actor.span.text}.{node.modifier}()` is not used",
             key=str(node.span.start),
-            help="leave the line out",
+            help="remove the line",
         )
     return True
 
@@ -177,7 +177,7 @@ def _find_plain(
         r.report(
             "OSC201",
             callee.span,
-            f"`{word}(…)` is an event condition, which stands alone",
+            f"`{word}(…)` is an event condition, which is used alone",
             help=help_,
         )
         return None
@@ -204,7 +204,7 @@ def _find_plain(
 
 
 def _method_meant(callee: ast.NameExpression, node: ast.Call | ast.CallDirective) -> Help:
-    """Return a line of help for `len(list)`, a method of what stands in the parentheses."""
+    """Return the help for `len(list)`, which is a method of its argument."""
     word = callee.name.text
     if word in MEMBERS and node.arguments:
         receiver = node.arguments[0].value.span.text
@@ -318,7 +318,7 @@ def _check_operator_arity(
         extra = node.arguments[count]
         r.report("OSC405", extra.span, f"`{method.name}` takes {count or 'no'} argument")
     elif len(node.arguments) < len(method.parameters):
-        r.report("OSC404", callee.name.span, f"`{method.name}` misses its argument")
+        r.report("OSC404", callee.name.span, f"`{method.name}` lacks its argument")
 
 
 def _infer_list_operator(

@@ -87,7 +87,7 @@ def _member_by_alias(
 
 
 def value_type(r: Resolution, symbol: Symbol, node: ast.Expression) -> Type:
-    """Return the type of what a name or path stands for; report what is not a value."""
+    """Return the type of a name or path; report one that is not a value."""
     match symbol:
         case FieldSymbol() | ParameterSymbol() | LabelSymbol():
             return symbol.type
@@ -162,9 +162,9 @@ def _infer_unknown(
 
 
 def _name_meant(r: Resolution, name: ast.Name, env: Environment) -> Help:
-    """Say what may be meant by a name that is not defined."""
+    """Return the help for a name that is not defined."""
     if name.text in NOTHING:
-        return "there is no empty value; leave out what has none"
+        return "there is no empty value; omit arguments and members without a value"
     if found := plain_word(name.span, NAMES) or _field_elsewhere(r, name):
         return found
     meant = nearest(name.text, visible_names(r, env))
@@ -179,7 +179,7 @@ def _name_meant(r: Resolution, name: ast.Name, env: Environment) -> Help:
 
 
 def _member_meant(r: Resolution, name: ast.Name, enum: EnumSymbol) -> Help:
-    """Say which member of an enum may be meant by a name that it does not have."""
+    """Return the help for an unknown member of an enum."""
     if enum.origin != "user" and (newer := in_newest_version(r, enum.name, name)):
         return newer
     if ENUM_MEMBERS.get(name.text) in enum.members:
@@ -193,7 +193,7 @@ def _field_elsewhere(r: Resolution, name: ast.Name) -> str | None:
         if isinstance(symbol, ScenarioSymbol):
             field = symbol.members.get(name.text)
             if isinstance(field, FieldSymbol) and field.node is not None:
-                return f"`{name}` is a field of `{symbol.qualified_name}`; hand it over as argument"
+                return f"`{name}` is a field of `{symbol.qualified_name}`; pass it as an argument"
     return None
 
 

@@ -73,8 +73,8 @@ def _infer_logical(r: Resolution, node: ast.Binary, env: Environment) -> Type:
         r.report(
             "OSC414",
             node.span,
-            "a chain of `=>` is read from the right; the standard does not say so",
-            help=write(node.right.span, f"({node.right.span.text})", "set brackets"),
+            "a chain of `=>` is read from the right; the standard does not define this",
+            help=write(node.right.span, f"({node.right.span.text})", "add parentheses"),
         )
     return BOOL
 
@@ -96,7 +96,7 @@ def _operand_types(r: Resolution, node: ast.Binary, env: Environment) -> tuple[T
 
 
 def _divides_by_unit(r: Resolution, node: ast.Binary, env: Environment) -> bool:
-    """Report `72km/h`, where `h` stands for nothing; the standard has a unit for it (§7.3.4)."""
+    """Report `72km/h`, where `h` is not defined; the standard has a unit for it (§7.3.4)."""
     number, below = node.left, node.right
     if node.operator is not Op.DIVIDE or not isinstance(number, ast.PhysicalLiteral):
         return False
@@ -139,7 +139,7 @@ def _infer_in(r: Resolution, node: ast.Binary, env: Environment) -> Type:
 
 
 def _sides_of_in(r: Resolution, node: ast.Binary, env: Environment) -> tuple[Type, Type]:
-    """Type a value and what it may be in; bare enum members take their enum from the other."""
+    """Type a value and its range or list; bare enum members take their enum from the other."""
     if _lacks_value(r, node.left, env):
         right = r.type_of(node.right, env)
         element = right.element if isinstance(right, ListType) else None
@@ -186,10 +186,10 @@ def _infer_ordering(r: Resolution, node: ast.Binary, left: Type, right: Type) ->
 
 
 def _number_in(operand: ast.Expression, type_: Type) -> str | None:
-    """Return how to name a number of what `it` is, where that is no number itself."""
+    """Return the help for `it` where it is not a number: a member of it that is one."""
     if not isinstance(operand, ast.ItExpression):
         return None
-    return f"`it` is all of `{type_}` here: name what is meant, `it.member`"
+    return f"`it` is all of `{type_}` here: name a member, `it.member`"
 
 
 def _check_comparable(r: Resolution, node: ast.Binary, left: Type, right: Type) -> None:

@@ -1,7 +1,7 @@
-"""Type names in the place of objects: `map.set_map_file(…)` without a field of type `map`.
+"""Type names instead of objects: `map.set_map_file(…)` without a field of type `map`.
 
-Examples of the standard write so (§6.3.1.3, §8.5.4) and do not say what it means. It can only be
-about the one object of the type.
+Examples of the standard use this form (§6.3.1.3, §8.5.4) without a definition. It can only denote
+the only object of the type.
 """
 
 from __future__ import annotations
@@ -20,9 +20,9 @@ SINGLETONS = frozenset({"map", "environment"})
 
 
 def type_as_receiver(r: Resolution, node: ast.NameExpression, env: Environment) -> Type | None:
-    """Return the type of the one object that the name of an actor type stands for.
+    """Return the type of the only object of the actor type with a name.
 
-    `None` if the name is not that of an actor type. What is ambiguous is reported.
+    `None` if the name is not that of an actor type. An ambiguous name is reported.
     """
     named = r.scope.select(r.scope.types_named(node.name.text), node.name, env.context)
     if len(named) != 1 or not isinstance(named[0], ActorSymbol):
@@ -37,7 +37,7 @@ def type_as_receiver(r: Resolution, node: ast.NameExpression, env: Environment) 
         listed = " or ".join(f"`{each.name}`" for each in objects)
         _report(r, node, actor, f"write {listed}")
     elif _is_singleton(actor):
-        _warn(r, node, "it is taken as the one there is", declare)
+        _warn(r, node, "it is taken as the only one", declare)
         return _refer(r, node, implied_object(r, actor, node))
     elif actor.origin == "user" and r.relaxes(
         "OSC622",

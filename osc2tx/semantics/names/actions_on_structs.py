@@ -15,12 +15,12 @@ def actions_on(r: Resolution, type_: Type, node: ast.Invocation) -> str | None:
 
     Args:
         r: The state of the pass.
-        type_: The type of what stands in place of an actor.
+        type_: The type of the expression that is used as an actor.
         node: The invocation.
 
     Returns:
-        The action that has the name of the invocation, else all actions that take such a struct,
-        else the action of the struct's own name (`rain`); `None` if there is none.
+        The action with the name of the invocation, otherwise all actions that take such a struct,
+        otherwise the action with the name of the struct (`rain`); `None` if there is none.
     """
     if not isinstance(type_, StructType):
         return None

@@ -1,8 +1,8 @@
-"""Actors that are known by their names alone, as ScenarioRunner knows them.
+"""Actors that are identified by their names alone, as in ScenarioRunner.
 
-There all scenarios of a program share the actors of a name. Here an actor has an owner, and an
-invocation hands it over. So a scenario that uses an actor of its caller gets a field like it, and
-what an invocation leaves out of the actors is the caller's actor of that name.
+There all scenarios of a program share the actor of a name. Here an actor has an owner, and an
+invocation passes it. So a scenario that uses an actor of its caller gets a field of this name, and
+an actor that an invocation omits is the caller's actor of that name.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ def actor_of_caller(r: Resolution, name: ast.Name, env: Environment) -> FieldSym
 
 
 def hand_over_actors(r: Resolution) -> None:
-    """Bind what invocations leave out of the actors to the caller's actors of the same names."""
+    """Bind actors that invocations omit to the caller's actors of the same names."""
     if "OSC628" not in r.relaxations.dialect.relaxed:
         return
     pending = [s for s in r.scope.declared if isinstance(s, ScenarioSymbol)]
@@ -77,9 +77,9 @@ def _hand_over(
         r.relaxes(
             "OSC628",
             node.behavior.span,
-            f"`{binding.callee.name}` acts with {what}, as it has an actor of that name",
+            f"`{binding.callee.name}` uses {what}, its caller",
             key=f"{node.span.start} {field.name}",
-            help=f"hand it over: `{field.name}: {field.name}`",
+            help=f"pass it: `{field.name}: {field.name}`",
         )
     name = ast.Name(span=node.behavior.span, text=field.name)
     value = ast.NameExpression(span=node.behavior.span, name=name)

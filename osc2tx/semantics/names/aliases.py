@@ -52,7 +52,7 @@ def behavior_alias(r: Resolution, actor: TypeSymbol, name: ast.Name) -> ast.Name
 def parameter_alias(
     r: Resolution, callee: Symbol, name: ast.Name, known: Container[str]
 ) -> ParameterAlias | None:
-    """Return what a parameter of another name stands for, if the dialect reads it so."""
+    """Return the parameter that another name denotes, if the dialect accepts it."""
     alias = standard_parameter(callee, name)
     if alias is None or name.namespace is not None or alias.parameter not in known:
         return None
@@ -68,19 +68,19 @@ def parameter_alias(
 
 
 def standard_member(owner: TypeSymbol, name: ast.Name) -> str | None:
-    """Return what the standard calls a member of a type."""
+    """Return the standard name of a member of a type."""
     keys = ((s.name, name.text) for s in supertypes(owner))
     return next((MEMBER_ALIASES[key] for key in keys if key in MEMBER_ALIASES), None)
 
 
 def standard_behavior(actor: TypeSymbol, name: ast.Name) -> str | None:
-    """Return what the standard calls an action of an actor type."""
+    """Return the standard name of an action of an actor type."""
     keys = ((s.name, name.text) for s in supertypes(actor))
     return next((BEHAVIOR_ALIASES[key] for key in keys if key in BEHAVIOR_ALIASES), None)
 
 
 def standard_parameter(callee: Symbol, name: ast.Name) -> ParameterAlias | None:
-    """Return what the standard calls a parameter of its own modifiers and actions."""
+    """Return the standard name of a parameter of its modifiers and actions."""
     if callee.origin == "user":
         return None
     return PARAMETER_ALIASES.get((callee.name, name.text))

@@ -1,4 +1,4 @@
-"""Words that people, and other tools and languages, use for what the standard calls otherwise."""
+"""Colloquial names, and names of other tools and languages, for names of the standard."""
 
 from __future__ import annotations
 
@@ -60,12 +60,12 @@ MODIFIERS: Mapping[str, str] = {
     "stay_in_lane": "keep_lane",
     "velocity": "speed",
 }
-# Names that are no behaviors, or no modifiers, and what to write instead.
+# Names that are no behaviors, or no modifiers, with their replacements.
 _GAP = "a gap is kept by an action: `….keep_space_gap(…)` or `….keep_time_gap(…)`"
 NO_BEHAVIORS: Mapping[str, str] = {
     **dict.fromkeys(
         ("turn", "turn_left", "turn_right"),
-        "a turn is a matter of the route: `drive` with the modifier `along`, on a route that turns",
+        "a turn follows from the route: `drive` with the modifier `along`, on a route that turns",
     ),
     **dict.fromkeys(
         ("wait", "sleep", "pause"), "`wait elapsed(3s)` is a statement of its own, without an actor"
@@ -81,11 +81,11 @@ NO_MODIFIERS: Mapping[str, str] = {
     "left_of": "a parameter of `lateral` and `lane`: `lane(1, side_of: …, side: left)`",
     "right_of": "a parameter of `lateral` and `lane`: `lane(1, side_of: …, side: right)`",
     "same_lane": "`lane(same_as: …)`",
-    "duration": "how long is an argument of what is invoked: `(duration: …)`",
-    "repeat": "there are no loops: write the invocation as often as it shall happen",
-    "retry": "there are no loops: write the invocation as often as it shall happen",
-    "timeout": "how long is an argument of what is invoked: `(duration: …)`",
-    "wait": "`wait` stands inside `do`, on a line of its own",
+    "duration": "the duration is an argument of the invocation: `(duration: …)`",
+    "repeat": "there are no loops: repeat the invocation",
+    "retry": "there are no loops: repeat the invocation",
+    "timeout": "the duration is an argument of the invocation: `(duration: …)`",
+    "wait": "`wait` belongs inside `do`, on a line of its own",
 }
 # For a word several, of which a behavior or modifier has one.
 PARAMETERS: Mapping[str, tuple[str, ...]] = {
@@ -163,19 +163,19 @@ QUOTIENTS: Mapping[tuple[str, str], str] = {
 # Actions of other tools that write something.
 OUTPUT = frozenset({"echo", "log", "print", "write"})
 
-# Event conditions, which are no methods: they stand alone behind `wait`, `until`, `on` and `is`.
+# Event conditions, which are no methods: they are used alone behind `wait`, `until`, `on` and `is`.
 CONDITIONS = frozenset({"rise", "fall", "elapsed", "every"})
 
 
 def fitting_word(word: str, known: Container[str]) -> str | None:
-    """Return the parameter that a word stands for, of those that there are."""
+    """Return the parameter that a word denotes, of the given ones."""
     return next((name for name in PARAMETERS.get(word, ()) if name in known), None)
 
 
 def plain_word(written: Span, table: Mapping[str, str]) -> Remedy | None:
     """Return the remedy that replaces a word by the one of the standard.
 
-    It is safe where both words stand for the same value; parameters of an action may differ.
+    It is safe if both words denote the same value; parameters of an action may differ.
     """
     if written.text not in table:
         return None

@@ -78,7 +78,7 @@ def actor_field(r: Resolution, actor: ActorSymbol) -> FieldSymbol:
 def lookup_local(
     r: Resolution, name: ast.Name, env: Environment, *, quiet: bool = False
 ) -> Symbol | None:
-    """Return what a name stands for inside a type, its method or its event."""
+    """Return the symbol of a name inside a type, its method or its event."""
     if name.namespace is None and name.text in env.locals:
         return env.locals[name.text]
     if env.owner is None:
@@ -92,7 +92,7 @@ def lookup_local(
 def lookup_value(
     r: Resolution, name: ast.Name, env: Environment, *, quiet: bool = False
 ) -> Symbol | None:
-    """Return what a name stands for, enum members left aside."""
+    """Return the symbol of a name, except enum members."""
     found = lookup_local(r, name, env, quiet=quiet)
     if found is not None:
         return found

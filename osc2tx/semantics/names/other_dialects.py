@@ -22,13 +22,13 @@ class Advice(TypedDict):
 
 
 def advise(r: Resolution, kind: str, name: ast.Name, known: list[str]) -> Advice:
-    """Return the dialect that knows a name, else the known name that comes near.
+    """Return the dialect that has a name, otherwise a similar known name.
 
     Args:
         r: The state of the pass.
         kind: `"type"` or `"modifier"`.
-        name: The name that stands for nothing here.
-        known: What does stand for something.
+        name: The unknown name.
+        known: The known names.
     """
     dialect = _declared_by_preludes().get((kind, name.text))
     if dialect is None or dialect == r.relaxations.dialect.name:

@@ -27,9 +27,9 @@ def note_runner_event(r: Resolution, node: ast.EventDeclaration) -> None:
 def reads_as_quantity(
     r: Resolution, expression: ast.Expression, target: Type, env: Environment
 ) -> bool:
-    """Whether a text stands for a quantity of an actor, as `"npc_speed"` for the speed of `npc`.
+    """Whether a string denotes a quantity of an actor, as `"npc_speed"` the speed of `npc`.
 
-    It changes during the run, also where a parameter holds it: that is another name for it.
+    It changes during the run, also as the value of a parameter, which is another name for it.
     """
     if not isinstance(expression, ast.StringLiteral) or not isinstance(target, PhysicalType):
         return False
@@ -50,9 +50,9 @@ def _read_quantity(
     read = r.relaxes(
         "OSC621",
         text.span,
-        f'the text `"{text.value}"` stands for `{actor}.{quantity}`, whatever that is at the time',
+        f'the text `"{text.value}"` stands for `{actor}.{quantity}` at the time of the comparison',
         key=text.value,
-        help=f"write `{actor}.{quantity}` where it is compared",
+        help=f"write `{actor}.{quantity}` there",
     )
     if read:
         base = ast.NameExpression(span=text.span, name=actor)

@@ -27,10 +27,10 @@ def move_out(node: ast.Node, value: ast.Expression, name: str) -> Remedy:
     """Return the remedy that makes a modifier of an argument.
 
     Args:
-        node: What has the argument. The modifier stands below an invocation, in its `with:` block,
+        node: The owner of the argument. The modifier follows in the `with:` block of an invocation,
             or beside another modifier.
         value: The value of the argument.
-        name: Of the modifier.
+        name: Name of the modifier.
     """
     text = f"{name}({value.span.text})"
     if isinstance(node, ast.ModifierApplication):

@@ -65,9 +65,9 @@ def report_unknown(
     Args:
         r: The state of the pass.
         names: The names, with the values given.
-        parameters: Those that there are.
-        callee: What has them.
-        node: What gives the arguments.
+        parameters: The declared parameters.
+        callee: The owner of the parameters.
+        node: The owner of the arguments.
     """
     hints = {n: PRELUDE_PARAMETERS.get((callee.name, n.text)) for n in names}
     foreign = [n for n in names if hints[n] is not None and callee.origin == "library"]
@@ -131,7 +131,7 @@ def in_newest_version(r: Resolution, owner: str, name: ast.Name) -> str:
 
 
 def _is_modified_by(r: Resolution, callee: Symbol, word: str) -> bool:
-    """Whether a modifier has the name and goes with a behavior, or with another modifier."""
+    """Whether a modifier has the name and applies to a behavior, or beside another modifier."""
     modified = callee.target if isinstance(callee, ModifierSymbol) else callee
     if not isinstance(modified, ScenarioSymbol | ActionSymbol):
         return False

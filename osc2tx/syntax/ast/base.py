@@ -18,11 +18,11 @@ class Node:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Statement(Node):
-    """A node that stands on lines of its own and can therefore carry comments.
+    """A node with lines of its own, which can therefore have comments.
 
     Attributes:
-        comments: The comment lines that belong to it, without `#` and surrounding blanks; an empty
-            one where blank lines part them.
+        comments: Its comment lines, without `#` and surrounding blanks; an empty one where blank
+            lines divide them.
         trailing_comment: The comment at the end of its first line.
         comments_below: Comment lines that touch it from below, and not the next statement.
     """

@@ -36,7 +36,7 @@ WithMember: TypeAlias = KeepConstraint | RemoveDefault | ModifierApplication | U
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class DoMember(Statement):
-    """What every member of a `do` tree has.
+    """The common base of the members of a `do` tree.
 
     Attributes:
         label: The name before the colon.

@@ -58,7 +58,7 @@ class EventSpecification(Node):
     Attributes:
         event: The path after `@` as a `NameExpression` or `MemberAccess`.
         field: The name after `as`.
-        condition: What must hold; alone when `event` is missing.
+        condition: The condition; alone when `event` is missing.
     """
 
     event: Expression | None

@@ -29,7 +29,7 @@ Those of statements that may have a label also take `label`.
 
 
 class Builder:
-    """Access to the tokens of one file, and what builds its statements."""
+    """Access to the tokens of one file, and the functions that build its statements."""
 
     def __init__(
         self,
@@ -42,9 +42,9 @@ class Builder:
 
         Args:
             table: The tokens.
-            sink: Where reports go.
+            sink: Receives the diagnostics.
             allow: Codes that are not reported.
-            builders: What builds a statement, by the class of its context.
+            builders: The function that builds a statement, by the class of its context.
         """
         self.builders = builders
         self.comments = CommentTable(table)
@@ -131,7 +131,7 @@ class Builder:
         return self._wrapped_type(children[:-1], ast.NamedType(span=name.span, name=name))
 
     def _wrapped_type(self, words: list[int], named: ast.NamedType) -> ast.TypeName:
-        """Put the prefixes `list of` and `range of` around a type."""
+        """Apply the prefixes `list of` and `range of` to a type."""
         if not words:
             return named
         prefixes = [self.text_of(token) for token in words[::2]]

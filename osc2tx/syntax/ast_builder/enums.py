@@ -54,7 +54,7 @@ def _si(b: Builder, tree: Tree) -> tuple[tuple[ast.SiExponent, ...], dict[str, f
         if name in numbers:
             b.report("OSC100", argument.span, f"`{name}` is given twice")
         elif "offset" in numbers or ("factor" in numbers and name != "offset"):
-            message = f"`{argument.span.text}` stands too late: {SI_ORDER}"
+            message = f"`{argument.span.text}` is in the wrong order: {SI_ORDER}"
             b.report("OSC100", argument.span, message, "`SI(K: 1, factor: 0.5, offset: 200.0)`")
         elif name in ("factor", "offset") and value is not None:
             numbers[name] = float(value)

@@ -53,7 +53,7 @@ def build_event_specification(b: Builder, tree: Tree) -> ast.EventSpecification:
 def _event_path(b: Builder, tree: Tree) -> ast.Expression:
     path = build_expression(b, tree)
     if not isinstance(path, (ast.NameExpression, ast.MemberAccess)):
-        message = "the name of an event stands after `@`"
+        message = "the name of an event follows `@`"
         help_ = "a condition follows after `if`: `@event if condition`"
         b.report("OSC100", path.span, message, help_)
     return path
@@ -112,13 +112,13 @@ def _every(b: Builder, call: ast.Call) -> ast.EventCondition:
 def call_parts(
     b: Builder, expression: ast.Expression, what: str, *, in_type: bool = False
 ) -> CallParts | None:
-    """Take `actor.name(arguments)` apart; missing parentheses are reported and forgiven.
+    """Split `actor.name(arguments)`; missing parentheses are reported and accepted.
 
     Args:
         b: The builder.
-        expression: What stands there.
-        what: What it has to be.
-        in_type: Whether a field could stand there as well.
+        expression: The expression.
+        what: The required construct.
+        in_type: Whether a field is possible there as well.
     """
     callee: ast.Expression = expression
     arguments: tuple[ast.Argument, ...] = ()
@@ -137,7 +137,7 @@ def call_parts(
         message = f"missing parentheses after `{shown}`"
         help_ = f"write {what} as `{shown}()`"
         if isinstance(callee, ast.NameExpression) and in_type:
-            message = f"`{shown}` alone says nothing"
+            message = f"`{shown}` alone has no meaning"
             help_ = f"a field has a type, `{shown}: type`; a modifier is `{shown}(…)`"
             parts = None
         b.report("OSC100", expression.span, message, help_)

@@ -281,7 +281,7 @@ def _enum_literal(b: Builder, base: ast.Expression, member: int) -> ast.Expressi
     span = base.span.to(name.span)
     if isinstance(base, ast.NameExpression):
         return ast.EnumLiteral(span=span, enum=base.name, member=name)
-    b.report("OSC100", base.span, "the name of an enumeration stands before `!`")
+    b.report("OSC100", base.span, "the name of an enumeration precedes `!`")
     return base
 
 

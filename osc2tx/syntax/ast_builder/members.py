@@ -167,8 +167,8 @@ def build_ending(b: Builder, tree: Tree, place: Place) -> tuple[ast.Statement, .
     last = children[-1]
     if last.__class__ is not Grammar.WithBlockContext:
         return ()
-    message = "`with:` stands on the same line as what it belongs to"
-    help_ = "that of a composition stands below its members, as far in as the composition"
+    message = "`with:` follows the invocation on the same line"
+    help_ = "`with:` of a composition follows its members, in the column of the composition"
     b.report("OSC100", b.span(last.start, last.start), message, help_)
     return build_with_block(b, last, place)
 
@@ -181,7 +181,7 @@ def build_with_block(b: Builder, tree: Tree, place: Place) -> tuple[ast.Statemen
             b.comments.hand_on(tree.start, inner.start + 1)
         return build_body(b, tree, place, "`with`")
     first = inner.start
-    message = "what belongs to `with:` stands on lines of its own"
+    message = "the modifiers of `with:` are on lines of their own"
     if b.table.text(first) == "[":
         b.report("OSC100", b.span(first, first), message, "write one modifier in each line")
         return ()

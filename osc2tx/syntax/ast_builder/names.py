@@ -1,7 +1,7 @@
 """Statements that begin with a name: fields, modifier applications, invocations, labels.
 
-The grammar reads them all by one rule; the kind of block they stand in tells them apart (language
-reference §2.8): in a type body `a: b` is a field, inside `do` it is a label and what it names.
+The grammar has one rule for all; the kind of their block distinguishes them (language reference
+§2.8): in a type body `a: b` is a field, inside `do` it is a label with its member.
 """
 
 from __future__ import annotations
@@ -32,13 +32,13 @@ _COUNTED_TYPE = re.compile(r"(\w+)\[(\d+)\]")
 _BOUNDED_TYPE = re.compile(r"(\w+) +in +(\[[^\n]{1,60}\])")
 _COMPARED_TYPE = re.compile(r"(\w+) *== *(.{1,40})")
 _WITH_WORDS = {
-    "duration": "how long is an argument of what is invoked: `(duration: …)`",
+    "duration": "the duration is an argument of the invocation: `(duration: …)`",
     "until": "write `until …` without a colon",
 }
 
 
 def build_name_statement(b: Builder, tree: Tree, head: Head, place: Place) -> ast.Statement | None:
-    """Build what the kind of block makes of a statement that begins with a name."""
+    """Build a statement that begins with a name, by the kind of its block."""
     children = tree.children
     rest = children[-1]
     if b.type_at(children[-2]) != _COLON if len(children) > 1 else True:

@@ -60,25 +60,25 @@ ALLOWED: Final[dict[type, frozenset[Place]]] = {
     Grammar.UntilDirectiveContext: frozenset({Place.WITH}),
 }
 
-_KEEP = "constraints stand in the body of a type or in a `with:` block"
+_KEEP = "constraints belong in the body of a type or in a `with:` block"
 _DO_FIRST = "begin the behavior of a scenario with `do`"
 _HELP: Final[dict[type, str]] = {
     Grammar.ImportStatementContext: "imports come first in a file",
     Grammar.KeepConstraintContext: _KEEP,
     Grammar.RemoveDefaultContext: _KEEP,
-    Grammar.UntilDirectiveContext: "`until` stands in the `with:` block of what it ends",
-    Grammar.OnDirectiveContext: "`on` stands beside `do`, in the body of the scenario",
+    Grammar.UntilDirectiveContext: "`until` belongs in the `with:` block of its member",
+    Grammar.OnDirectiveContext: "`on` belongs beside `do`, in the body of the scenario",
     Grammar.VariableDeclarationContext: "declare fields in the body of a type",
     Grammar.EventDeclarationContext: "declare events in the body of a type",
     Grammar.MethodDeclarationContext: "declare methods in the body of a type",
     Grammar.CoverageDeclarationContext: (
-        "`cover` and `record` stand in the body of a type, beside `do`; `event: …` says when"
+        "`cover` and `record` belong in the body of a type, beside `do`; `event: …` states when"
     ),
 }
 
 
 def help_for(kind: type, place: Place) -> str | None:
-    """Say where a kind of statement belongs that stands in the wrong place."""
+    """Return the help for a kind of statement in the wrong position."""
     if kind is Grammar.DoDirectiveContext:
         if place is Place.DO:
             return "nest with `serial`, `parallel` or `one_of`"

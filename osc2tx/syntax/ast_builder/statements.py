@@ -18,7 +18,7 @@ _COLON = t.PUNCTUATION[":"]
 
 
 class HeadFields(TypedDict):
-    """What every statement gets, ready to be passed to a node."""
+    """The common arguments of nodes of statements."""
 
     span: Span
     comments: tuple[str, ...]
@@ -141,7 +141,7 @@ def block_of(b: Builder, tree: Tree) -> Tree | None:
 
 
 def refuse_block(b: Builder, tree: Tree) -> None:
-    """Report a block under a statement that has none; look for mistakes in it all the same."""
+    """Report a block below a statement without one; its contents are checked as well."""
     block = block_of(b, tree)
     if block is not None:
         report_indentation(b, block)

@@ -1,11 +1,11 @@
-"""Plays documents by the text of the standard alone, with laws of motion of its own.
+"""Plays documents by the text of the standard alone, with independent laws of motion.
 
 It shares nothing with the back end that writes documents but the model of their elements, and with
-the runtime only the reader of maps: what it finds is evidence about both.
+the runtime only the reader of maps: its results are independent evidence about both.
 
 - `storyboard`: acts and events, from instant to instant; begin here
 - `conditions`, `distances`: triggers, and what they measure
-- `actions` with `speeds`, `across`, `ways`: what is at work on the bodies, in `scene`
+- `actions` with `speeds`, `across`, `ways`: running actions on the bodies, in `scene`
 - `bodies`, `places`: entities on their map; `courses`: values over time
 """
 

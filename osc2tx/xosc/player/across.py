@@ -102,9 +102,9 @@ class Offsets:
         return time, shaped(shape, body.place.offset, end, time)
 
     def keep_aside(self, body: Body, run: Running, node: Element, way: float) -> None:
-        """Move a body by a way (m), and towards the distance that it keeps.
+        """Move a body by a distance (m), and towards its lateral gap.
 
-        Without limits that is kept rigid; else it is neared the more slowly the nearer it is.
+        Without limits the gap is rigid; otherwise it is approached at a decreasing speed.
         """
         scene = self._scene
         limits, wanted = node.find(xml.DynamicConstraints), number(node, "distance")

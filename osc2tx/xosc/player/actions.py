@@ -34,7 +34,7 @@ class Stage:
     # --- starting ---------------------------------------------------------------------------------
 
     def begin(self, action: Element, body: Body, time: float) -> Running | None:
-        """Put a private action to work; those that take no time leave nothing behind."""
+        """Start a private action; an instantaneous one leaves no running action."""
         self._scene.time, inner = time, action.inner
         match inner.tag:
             case "TeleportAction":

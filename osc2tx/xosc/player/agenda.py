@@ -10,12 +10,12 @@ from heapq import heappop, heappush
 
 from osc2tx_shared.classes import dataclass
 
-EARLY = 1e-6  # s; an event that is looked at too early goes on waiting
+EARLY = 1e-6  # s; an event that is evaluated too early continues to wait
 
 
 @dataclass(frozen=True, slots=True)
 class Awaited:
-    """What a trigger waits for: it cannot fire before one of these.
+    """The causes of a trigger: it cannot fire before one of these.
 
     Attributes:
         times: Seconds since the start.

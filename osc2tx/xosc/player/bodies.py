@@ -33,28 +33,28 @@ class Body:
 
     Attributes:
         name: Its name.
-        kind: The element that describes it: `Vehicle`, `Pedestrian` or `MiscObject`.
+        kind: Its element: `Vehicle`, `Pedestrian` or `MiscObject`.
         front: Metres from its reference point to its front end.
         rear: Metres from its reference point to its rear end.
         width: Metres.
-        limits: Attributes of `Performance`, infinite where they are left out.
-        pose: Where it is.
+        limits: Attributes of `Performance`, infinite where they are omitted.
+        pose: Its pose.
         place: The lane that it follows, with its offset from there; `None` off the lanes.
-        along: 1 if it looks in the direction of travel of that lane, -1 against it.
+        along: 1 if its heading is the direction of travel of that lane, -1 if against it.
         route: Decides at forks.
         v: m/s.
         a: m/s^2, along its axis.
         rate: m/s to its left.
         velocity: m/s in the world.
         swing: m/s^2 to its left.
-        actions: At work, by domain.
+        actions: Running actions, by domain.
         driven: Metres since the start.
-        stood: Seconds for which it has been standing.
+        stood: Seconds at standstill.
         is_at_end: Its road has ended.
         beyond: Seconds since then.
-        counts_along_road: Places beside it are so many metres along its road, not along its lane.
-        behind: Which body tows it, with the metres from that one's reference point back to the
-            hitch, and from the coupler to its own reference point.
+        counts_along_road: Positions relative to it count metres along its road, not along its lane.
+        behind: The towing body, with the metres from its reference point back to the hitch, and
+            from the coupler to the own reference point.
         cursor: Moves it along its lane; made with the first step.
         located: For what pose, place and direction of its lane it was looked up last, and where
             it is then. Several conditions of a step ask for that.
@@ -87,13 +87,13 @@ class Body:
 
     @property
     def here(self) -> Pose:
-        """Where it is.
+        """Its pose.
 
         Raises:
-            AssertionError: It was put nowhere.
+            Unplayable: It has no position.
         """
         if self.pose is None:
-            raise Unplayable(f"{self.name} is nowhere")
+            raise Unplayable(f"{self.name} has no position")
         return self.pose
 
     def lane(self, road_map: RoadMap) -> LanePosition | None:
@@ -120,7 +120,7 @@ class Body:
     # --- teleports ----------------------------------------------------------------------------
 
     def put(self, road_map: RoadMap, place: LanePosition | Pose, turned: float | None) -> None:
-        """Put it at a place.
+        """Place it.
 
         Args:
             road_map: The map.
@@ -145,7 +145,7 @@ class Body:
     # --- motion over one step -----------------------------------------------------------------
 
     def move(self, road_map: RoadMap, way: float, offset: float | None, dt: float) -> None:
-        """Move it by a way (m), to an offset (m) from its lane where that changes."""
+        """Move it by a distance (m), to an offset (m) from its lane where that changes."""
         if self.place is None:
             x, y, h = self.here
             self.pose = Pose(x + way * math.cos(h), y + way * math.sin(h), h)
@@ -166,7 +166,7 @@ class Body:
         turned = math.atan2(aside * self.along, abs(onward)) if onward else 0.0
         h = (pose.h if self.along > 0 else pose.h + math.pi) + turned
         self.pose = Pose(pose.x, pose.y, h)
-        if left > 1e-6:  # of the end of a road the standard says nothing: it stands behind it
+        if left > 1e-6:  # the standard does not define ends of roads: the body stops there
             onward = math.copysign(left, way)
             x, y = pose.x + onward * math.cos(h), pose.y + onward * math.sin(h)
             self.pose, self.v, self.is_at_end = Pose(x, y, h), 0.0, True
@@ -182,7 +182,7 @@ class Body:
         self.velocity, self.swing = (vx, vy), ay * math.cos(h) - ax * math.sin(h)
 
     def trail(self) -> None:
-        """Draw it straight towards the hitch of what tows it."""
+        """Move it straight towards the hitch of its towing vehicle."""
         assert self.behind is not None
         tow, hitch, bar = self.behind
         x = tow.here.x - hitch * math.cos(tow.here.h)
@@ -196,21 +196,21 @@ class Running:
     """An action at work.
 
     Attributes:
-        body: On what.
-        domains: Which of its domains it controls.
+        body: The body.
+        domains: The domains that it controls.
         begun: When it began (s).
-        length: Seconds that it takes; `None`: it ends by itself or never.
+        length: Its duration (s); `None`: it ends by itself or never.
         speed: Course of the speed.
         offset: Course of the offset.
-        changes_lane: That is from one lane to another.
+        changes_lane: The offset is a lane change.
         way: Points of a polyline, with times where it has some.
         is_timed: These times count.
         points: Metres from its start to each of its points.
         gap: The action that keeps a distance.
-        side: 1 if that is kept behind the other one or to its left, -1 on the other side.
-        relative: The action that keeps a speed relative to that of another one.
-        master: Of a synchronized entity: the master, the action, and the places of both.
-        driven: Metres along the way so far.
+        side: 1 if the gap is behind the reference or to its left, -1 on the other side.
+        relative: The action that keeps a speed relative to the reference.
+        master: Of a synchronized entity: the master, the action, and the positions of both.
+        driven: Metres along the path so far.
         done: It is over.
     """
 

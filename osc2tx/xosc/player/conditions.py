@@ -23,19 +23,20 @@ KINDS = {
     "ManeuverGroup": "maneuverGroup",
     "Story": "story",
 }
-"""What conditions call the elements of a storyboard, by tag."""
+"""The names of elements of a storyboard in conditions, by tag."""
 
 
 @dataclass(frozen=True)
 class Reading:
-    """How a tool reads documents, where that is not what the standard says.
+    """How a tool reads documents where it deviates from the standard.
 
     Attributes:
-        is_lazy: Of a group of conditions it looks at none behind a false one, but at delayed ones.
-        latches: Of a group it wants each condition once, not all at one time.
-        counts_from_looking: A time counts from when it begins to look for it.
+        is_lazy: Behind a false condition of a group it evaluates only delayed ones.
+        latches: Each condition of a group is required once, not all at one time.
+        counts_from_looking: A time counts from the first evaluation.
         carries_acceleration: A profile of speeds begins with the present acceleration.
-        counts_along_roads: A place beside an entity counts metres along its road, not its lane.
+        counts_along_roads: A position relative to an entity counts metres along its road, not its
+            lane.
         guesses_at_forks: At a fork, lane changes and driving against traffic may lead anywhere.
     """
 
@@ -52,14 +53,14 @@ LATER = ("greaterThan", "greaterOrEqual")
 
 
 class Past:
-    """What a condition was at each look; there may be several in a step."""
+    """The values of a condition at its evaluations; there may be several in a step."""
 
     def __init__(self) -> None:
         self.steps: list[int] = []
         self.values: list[bool] = []
 
     def note(self, step: int, value: bool) -> None:
-        """Note a value; what was true in a step stays so in it."""
+        """Record a value; a true value of a step stays true in it."""
         if self.steps and self.steps[-1] == step:
             self.values[-1] = self.values[-1] or value
         else:
@@ -74,16 +75,16 @@ class Past:
 
 @dataclass
 class Looked:
-    """A condition that is looked at.
+    """An evaluated condition.
 
     Attributes:
         test: Whether it is met now.
-        edge: The change of that which it waits for.
-        is_delayed: What it was counts, not what it is.
-        steps: By how many steps it is delayed.
-        before: What the look before found.
-        latched: It has held once.
-        past: What was found at each look.
+        edge: The change of the value that it waits for.
+        is_delayed: A past value counts, not the present one.
+        steps: Delay in steps.
+        before: The previous value.
+        latched: It was true once.
+        past: The values at all evaluations.
     """
 
     test: Test
@@ -120,9 +121,9 @@ class Conditions:
         return any([self._all_hold(group.children) for group in groups])
 
     def awaited(self, trigger: Element) -> Awaited | None:
-        """Return what a trigger that does not fire waits for; None if it is looked at each time.
+        """Return the causes of a trigger that does not fire; None if it is evaluated at each step.
 
-        That is one false condition of each group: until it holds, the others do not matter.
+        This is one false condition of each group: until it is true, the others do not matter.
         """
         groups, may_wait = self._groups_of(trigger)
         if not may_wait:
@@ -142,10 +143,10 @@ class Conditions:
         return Awaited(tuple(times), tuple(changes))
 
     def _false_one(self, group: Element) -> Element | None:
-        """Return a condition of a group that does not hold, if there is one.
+        """Return a false condition of a group, if there is one.
 
-        The one of the last look comes first, and those before it last: what a group waits for
-        mostly comes in the order in which it stands there.
+        The one of the last evaluation comes first, and those before it last: the conditions of a
+        group mostly become true in their order.
         """
         conditions, start = group.children, self.last_false.get(id(group), 0)
         for index in (*range(start, len(conditions)), *range(start)):
@@ -246,14 +247,14 @@ class Conditions:
                 name, state = node.said("name"), node.said("state")
                 return lambda: world.lights.get(name) == state
             case "UserDefinedValueCondition":
-                return lambda: False  # nobody sets such a value
+                return lambda: False  # no action sets such a value
         raise Unplayable(f"<{node.tag}> is not played", node.place)
 
 
 def _test_of_variable(node: Element, world: World) -> Test:
     """Return the test of a variable: texts are equal or not, numbers compare."""
     name, rule, value = _variable(node), node.said("rule"), node.said("value")
-    if name not in world.variables:  # documents of others ask for what is not there
+    if name not in world.variables:  # third-party documents name missing entities
         return lambda: False
     if rule in ("equalTo", "notEqualTo"):
         return lambda: (world.variables[name] == value) is (rule == "equalTo")

@@ -22,13 +22,13 @@ RULES: dict[str, Callable[[float, float], bool]] = {
 
 
 def number(node: Element, name: str, default: float = 0.0) -> float:
-    """Return the number that an attribute says."""
+    """Return the number of an attribute."""
     text = node.get(name)
     return default if text is None else float(text)
 
 
 def with_parameters(root: Element, given: Mapping[str, str]) -> Element:
-    """Put the values of the parameters into all attributes: `$name` and `${arithmetic}`.
+    """Replace the parameters in all attributes by their values: `$name` and `${arithmetic}`.
 
     Args:
         root: The document.
@@ -75,7 +75,7 @@ def with_jerk(
 ) -> tuple[Course, float]:
     """Return the fastest course within limits of acceleration and jerk, and its length.
 
-    The acceleration begins with a rate, comes to its peak, stays there, and is zero at the end.
+    The acceleration rises with a rate to its peak, stays there, and is zero at the end.
     """
     left = end - start - rate * abs(rate) / (2.0 * jerk)  # if the rate is just brought to zero
     sign = math.copysign(1.0, left)

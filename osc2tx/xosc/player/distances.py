@@ -1,6 +1,7 @@
 """Distances between entities, in the coordinate systems of the standard.
 
-Without signs, as conditions compare them; the clearance condition alone tells ahead from behind.
+Without signs, as conditions compare them; only the clearance condition distinguishes ahead from
+behind.
 """
 
 from __future__ import annotations
@@ -109,7 +110,7 @@ class Ruler:
         )
 
     def signed(self, a: Body, b: Body, kind: str, system: str) -> float | None:
-        """Return how far b is ahead of a, or to its left; `None` without a way."""
+        """Return how far b is ahead of a, or to its left; `None` without a route."""
         if system in ("road", "lane"):
             return self._on_road(a, b, kind, system)
         dx, dy = b.here.x - a.here.x, b.here.y - a.here.y
@@ -218,7 +219,7 @@ class Ruler:
         if mine is None or theirs is None:
             return None
         if mine.road != theirs.road:
-            return 0  # which of its lanes goes on from which is not asked for in what is tested
+            return 0  # the tested documents do not need the links between its lanes
         is_opposite = (mine.lane > 0) != (theirs.lane > 0)
         if is_opposite and not opposite:
             return None

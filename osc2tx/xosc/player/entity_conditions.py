@@ -21,11 +21,11 @@ Test: TypeAlias = Callable[[], bool]
 """Whether a condition is met at the present step."""
 
 Measure: TypeAlias = Callable[[], float]
-"""What a condition compares, at the present step."""
+"""The value that a condition compares, at the present step."""
 
 
 class World(Protocol):
-    """What conditions read besides the bodies."""
+    """The state that conditions read besides the bodies."""
 
     root: Element
     step: int
@@ -57,7 +57,7 @@ def test_of_entities(node: Element, world: World) -> Test:
 
 
 def compared(node: Element, measure: Measure) -> Test:
-    """Return the test that compares a measure as a condition says."""
+    """Return the test that compares a measure by the rule of a condition."""
     holds, value = RULES[node.said("rule")], number(node, "value")
     return lambda: holds(measure(), value)
 

@@ -13,7 +13,7 @@ from osc2tx.xosc.player.errors import Unplayable
 from osc2tx.xosc.player.shapes import Way, lengths_of, on_way, way_of
 from osc2tx_runtime.opendrive import LanePosition, RoadMap
 
-Place = tuple[LanePosition | Pose, float | None]  # with the heading (rad), if it says one
+Place = tuple[LanePosition | Pose, float | None]  # with the heading (rad), if it states one
 
 
 def place_of(node: Element, bodies: Mapping[str, Body], road_map: RoadMap) -> Place:
@@ -69,7 +69,7 @@ def _heading(
     bodies: Mapping[str, Body],
     road_map: RoadMap,
 ) -> float | None:
-    """Return the heading that a position says.
+    """Return the heading of a position.
 
     A relative orientation turns from the direction of the lane or the road, or of the reference.
     """

@@ -1,4 +1,4 @@
-"""What actions at work share: the bodies on their map, and the time."""
+"""The state that running actions share: the bodies on their map, and the time."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class Scene:
         self.ruler = Ruler(self.map)
 
     def gap(self, body: Body, node: Element, kind: str) -> float:
-        """Return how far the other one of an action on a distance is ahead, or to the left."""
+        """Return how far the reference of an action on a distance is ahead, or to the left."""
         other = self.bodies[node.said("entityRef")]
         system = node.get("coordinateSystem") or "entity"
         found = self.ruler.signed(body, other, kind, system)
@@ -53,12 +53,12 @@ class Scene:
         return found
 
     def side(self, body: Body, node: Element, kind: str) -> int:
-        """Return on which side of the other one an action keeps its distance.
+        """Return the side of the reference on which an action keeps its distance.
 
-        If none is stated, as in 1.0, or any, it is the one on which the body is.
+        If none is stated, as in 1.0, or any, it is the present side of the body.
         """
         told = node.get("displacement")
         if told is not None and told != "any":
             return SIDES[told]
-        is_ahead = self.gap(body, node, kind) > 0.0  # the other one, or to the left
+        is_ahead = self.gap(body, node, kind) > 0.0  # the reference, or to the left
         return 1 if is_ahead is (kind == "longitudinal") else -1

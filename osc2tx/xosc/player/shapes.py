@@ -20,7 +20,7 @@ MOST_HALVINGS = 10
 Way = list[tuple[float, Pose]]
 """Corners of a polyline, with times (s) where the shape has some."""
 PoseOf = Callable[[Element], Pose]
-"""The pose that a `Position` says."""
+"""The pose of a `Position`."""
 
 
 def way_of(shape: Element, pose_of: PoseOf) -> Way:
@@ -50,7 +50,7 @@ def way_of(shape: Element, pose_of: PoseOf) -> Way:
 
 
 def lengths_of(way: Sequence[tuple[float, Pose]]) -> list[float]:
-    """Return the metres from the start of a way to each of its corners."""
+    """Return the distances (m) from the start of a path to its corners."""
     found = [0.0]
     for (_, a), (_, b) in pairwise(way):
         found.append(found[-1] + math.dist(a[:2], b[:2]))
@@ -58,9 +58,9 @@ def lengths_of(way: Sequence[tuple[float, Pose]]) -> list[float]:
 
 
 def on_way(way: Sequence[tuple[float, Pose]], points: Sequence[float], driven: float) -> Pose:
-    """Return the pose at some metres of a way, of which that of each corner is known.
+    """Return the pose at a distance along a path with known distances of its corners.
 
-    It looks along the way; beyond its ends the first and the last piece go on.
+    Its heading is along the path; beyond its ends the first and the last segment continue.
     """
     last = len(way) - 2
     index = next((i for i in range(last) if driven < points[i + 1]), last)
@@ -74,7 +74,7 @@ def on_way(way: Sequence[tuple[float, Pose]], points: Sequence[float], driven: f
 def nearest_on(
     way: Sequence[tuple[float, Pose]], points: Sequence[float], x: float, y: float
 ) -> float:
-    """Return the metres of a way at its place nearest to a point."""
+    """Return the distance along a path at its point nearest to another one."""
 
     def candidates() -> Iterator[tuple[float, float]]:
         for index, ((_, a), (_, b)) in enumerate(pairwise(way)):

@@ -1,7 +1,7 @@
 """Longitudinal actions: courses of the speed, and gaps along the road.
 
-What the standard leaves to the tool is done as plainly as it allows: a gap is closed as fast as the
-limits of the action allow, a speed without time is reached as fast as limits and jerk allow.
+Behavior that the standard leaves to the tool is as simple as possible: a gap is closed as fast as
+the limits of the action allow, a speed without time is reached as fast as limits and jerk allow.
 """
 
 from __future__ import annotations
@@ -67,7 +67,7 @@ class Speeds:
                 time = 2.0 * value / (body.v + end)
         if shape == "step" or (dimension != "rate" and value == 0.0):
             time = 0.0
-        else:  # a tool may hold it to what the vehicle can do
+        else:  # a tool may limit it to the performance of the vehicle
             limit = body.limits["maxAcceleration" if end > body.v else "maxDeceleration"]
             time = max(time, peak * change / limit)
         return Running(
@@ -123,7 +123,7 @@ class Speeds:
     def next_of(self, body: Body) -> float:
         """Return the next speed of a body; it may need that of another one."""
         if body.name not in self._next:
-            self._next[body.name] = body.v  # who follows who follows it
+            self._next[body.name] = body.v  # the chain of references
             self._next[body.name] = _within(self._following(body), body.limits["maxSpeed"])
         return self._next[body.name]
 
@@ -168,7 +168,7 @@ class Speeds:
         return self._possible(body, _within(wanted, fastest))
 
     def _at_once(self, body: Body, node: Element, side: int) -> Running:
-        """Put an entity where it has its distance: nothing limits how it gets there."""
+        """Place an entity at its distance: the motion is not limited."""
         scene = self._scene
         leader, is_behind = scene.bodies[node.said("entityRef")], side > 0
         wanted = number(node, "distance")
@@ -186,16 +186,16 @@ class Speeds:
         return body.front + leader.rear if is_behind else body.rear + leader.front
 
     def _possible(self, body: Body, speed: float) -> float:
-        """Return the speed nearest to one that the performance of a body lets it reach."""
+        """Return the nearest speed that the performance of a body allows."""
         low, high = (
             body.limits[name] * self._scene.dt for name in ("maxDeceleration", "maxAcceleration")
         )
         return min(max(speed, body.v - low), body.v + high)
 
     def _nearing(self, body: Body, action: Element) -> float:
-        """Return the next speed of an entity that keeps one relative to that of another one.
+        """Return the next speed of an entity with a speed relative to the reference.
 
-        The dynamics say how it is reached: at a rate, or in a step.
+        The dynamics state how it is reached: at a rate, or in a step.
         """
         target = self._target_speed(action.one(xml.SpeedActionTarget).inner)
         dynamics = action.one(xml.SpeedActionDynamics)

@@ -1,7 +1,7 @@
 """The storyboard of a document, from instant to instant.
 
-At an instant the storyboard is gone through until nothing changes: transitions take no time. Then
-everything moves by one step. Elements are told apart by identity: two equal ones are two.
+At an instant the storyboard is evaluated to a fixed point: transitions take no time. Then all
+entities move by one step. Elements are compared by identity: two equal ones are two.
 """
 
 from __future__ import annotations
@@ -40,9 +40,9 @@ class Evaluator:
         step: The same in steps.
         starts: First start of each event and act, by name.
         track: Motion of each entity.
-        ends: When entities came to the end of their roads (s), behind which they stand.
-        forks: When entities came to a fork while they changed lane (s), if the tool then goes on
-            by any of the roads; or while they drove against the traffic.
+        ends: Times (s) at which entities reached the end of their roads, where they stop.
+        forks: Times (s) at which entities reached a fork during a lane change or against the
+            traffic, if the tool may take any of the roads.
     """
 
     def __init__(
@@ -110,7 +110,7 @@ class Evaluator:
         return self.step * self.dt
 
     def _init(self) -> None:
-        """Carry out `Init`: actions of an entity in order, after the positions they refer to."""
+        """Execute `Init`: actions of an entity in order, after the positions they refer to."""
         privates = self.root.one(xml.Storyboard).one(xml.Init).one(xml.Actions).all(xml.Private)
         waiting = [(self.bodies[each.entityRef], list(each.children)) for each in privates]
         while waiting:
@@ -211,7 +211,7 @@ class Evaluator:
         self.transitions |= {(id(element), transition) for transition in transitions}
 
     def _changed(self, what: int | str) -> None:
-        """Wake what waits for an element or a variable."""
+        """Wake the triggers that wait for an element or a variable."""
         for agenda, index in self._waiting.pop(what, ()):
             agenda.wake(index)
 
@@ -247,7 +247,7 @@ class Evaluator:
         return changed
 
     def _put_off(self, event: xml.Event, agenda: Agenda, index: int) -> None:
-        """Let an event that has not changed wait for what its trigger needs."""
+        """Let an unchanged event wait for the causes of its trigger."""
         trigger = event.find(xml.StartTrigger)
         if self._state(event) != "standbyState" or self.started_at.get(id(event)) == self.step:
             return
@@ -263,7 +263,7 @@ class Evaluator:
         return False
 
     def _wait(self, trigger: Element, agenda: Agenda, index: int) -> None:
-        """Put off what a trigger that does not fire starts."""
+        """Postpone the start of an element whose trigger does not fire."""
         awaited = self.conditions.awaited(trigger)
         if awaited is not None:
             agenda.sleep(index, awaited.times)
@@ -321,7 +321,8 @@ class Evaluator:
         if self._state(event) != "completeState":
             self._enter(event, "completeState", "stopTransition")
 
-    # --- what concerns no entity ------------------------------------------------------------------
+    # --- actions without an entity
+    # ------------------------------------------------------------------
 
     def _global(self, action: xml.GlobalAction) -> None:
         inner = action.inner
@@ -339,7 +340,7 @@ class Evaluator:
                     self.cycles[name] = (phases, names.index(signal.said("phase")), self.time)
                     self._run_cycles()
             case "EnvironmentAction" | "SetMonitorAction":
-                pass  # nothing here moves by the weather, or asks a monitor
+                pass  # weather and monitors have no effect here
             case _:
                 raise Unplayable(f"<{inner.tag}> is not played", inner.place)
 

@@ -1,8 +1,8 @@
-"""Synchronized entities: one comes to a place when another one, the master, comes to its own.
+"""Synchronized entities: one reaches its position when the master reaches its own.
 
 The standard leaves the course of the speed to the tool. Here an entity holds its speed as long as
-it can and then changes it evenly; if that does not fit, it changes twice, by way of the speed that
-does. The final speed is held for the distance or time that the action asks for.
+possible and then changes it at a constant rate; if that is not sufficient, it changes twice,
+through an intermediate speed. The final speed is held for the distance or time of the action.
 """
 
 from __future__ import annotations
@@ -24,13 +24,13 @@ EVEN = 1e-3  # m/s: speeds nearer than this are the same
 
 
 class Plan(NamedTuple):
-    """How an entity comes to its place.
+    """How an entity reaches its position.
 
     Attributes:
         hold: Seconds for which it holds its speed.
         through: Speed (m/s) in the middle of the change; `None`: the change is a single one.
         change: Seconds of the change, to the final speed.
-        steady: Seconds for which it then holds that.
+        steady: Seconds for which it then holds the final speed.
     """
 
     hold: float
@@ -40,11 +40,11 @@ class Plan(NamedTuple):
 
 
 def plan(way: float, time: float, v: float, final: float, steady: float) -> Plan:
-    """Return how an entity comes to a place in time.
+    """Return how an entity reaches a position in time.
 
     Args:
-        way: Metres up to the place.
-        time: Seconds until the master is at its own.
+        way: Metres to the position.
+        time: Seconds until the master is at its position.
         v: Its speed (m/s).
         final: Its speed at the place (m/s).
         steady: Seconds for which it has that before (s).
@@ -65,7 +65,7 @@ def final_of(node: Element, v: float, master: Body) -> tuple[float, float]:
 
     Args:
         node: `SynchronizeAction`.
-        v: The speed of the entity (m/s), which it keeps if no other one is said.
+        v: The speed of the entity (m/s), which it keeps if no other one is stated.
         master: The master.
     """
     holder = node.find(xml.FinalSpeed)
@@ -85,7 +85,7 @@ def final_of(node: Element, v: float, master: Body) -> tuple[float, float]:
 
 
 def way_left(body: Body, goal: LanePosition | Pose, road_map: RoadMap) -> float:
-    """Return how far (m) it is to a place on the way of an entity; negative behind it."""
+    """Return the distance (m) to a position on the path of an entity; negative behind it."""
     pose = Pose(*road_map.pose(goal)[:2], 0.0) if isinstance(goal, LanePosition) else goal
     run = body.actions.get(LATERAL)
     if run is not None and run.way and not run.done:
@@ -142,7 +142,7 @@ class Synchrony:
             return final
         now, left = self._scene.time - run.begun, found.hold + found.change
         if run.length is None and found.through is not None:
-            run.length = 0.5 * found.change  # from then on it comes to its final speed
+            run.length = 0.5 * found.change  # from then on it approaches its final speed
         if run.length is not None and now < run.length - STILL:
             first = run.length - now
             second = left - first

@@ -56,7 +56,7 @@ class Ways:
         times = [t for t, _ in run.way]
         time = min(max(time, times[0]), times[-1])
         driven = between(list(zip(times, run.points, strict=True)), time)
-        if any(a == b for a, b in pairwise(run.points)):  # it waits on its way
+        if any(a == b for a, b in pairwise(run.points)):  # it waits on its path
             xs = between([(t, p.x) for t, p in run.way], time)
             ys = between([(t, p.y) for t, p in run.way], time)
             return Pose(xs, ys, on_way(run.way, run.points, driven).h)

@@ -54,7 +54,7 @@ def test_an_orphan(shell: Shell) -> None:
     shell.drive("in/b.osc")
     build(shell)
     (shell.folder / "in/b.osc").unlink()
-    line = "out/b.py: is orphaned: b.osc makes no such file"
+    line = "out/b.py: is orphaned: b.osc does not produce this file"
     ended = build(shell, "--check")
     assert (ended.code, ended.err.splitlines()) == (1, [line])
     assert ended.out == "1 module in out: 1 file would change; 0 errors, 0 warnings\n"
@@ -73,7 +73,7 @@ def test_a_build_of_the_project_removes_what_lost_its_source(shell: Shell) -> No
     (shell.folder / "in/b.osc").rename(shell.folder / "in/c.osc")
     (shell.folder / "out/b.py").write_text("edited", encoding="utf-8")
     ended = shell("build")
-    line = "out/b.py: is orphaned: b.osc makes no such file"
+    line = "out/b.py: is orphaned: b.osc does not produce this file"
     assert ended.err == f"{line}; it was edited; --prune --force removes it\n"
     assert shell("build", "--force").code == 0
     assert shell("build", "--check").code == 0
@@ -167,7 +167,7 @@ def test_a_table_for_no_file(shell: Shell, command: tuple[str, ...]) -> None:
     path = shell.write("osc2tx.toml", "[scenarios.b]\n")
     ended = shell(*command)
     assert ended.code == 0
-    assert ended.err == f"warning: {path}: [scenarios.b] is for no file: there is no `b.osc`\n"
+    assert ended.err == f"warning: {path}: [scenarios.b] matches no file: there is no `b.osc`\n"
     assert shell(*command, "--strict").code == 1
 
 

@@ -22,7 +22,7 @@ def test_check_shows_errors_where_the_reader_is(shell: Shell) -> None:
     assert ended.code == 3
     assert ended.out == f"b.osc: {LEVEL}\nchecked 2 files: 1 error, 0 warnings\n"
     assert ended.err.startswith("sub/a.osc:2:9: error[OSC202]: ")
-    assert ended.err.endswith("\n\n`osc2tx explain OSC202` says more about a code.\n")
+    assert ended.err.endswith("\n\n`osc2tx explain OSC202` explains the code.\n")
 
 
 def test_warnings_do_not_fail(shell: Shell) -> None:

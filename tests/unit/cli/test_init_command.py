@@ -42,7 +42,7 @@ def test_files_of_the_user_stay(tmp_path: Path) -> None:
     (tmp_path / "osc2tx.toml").write_text("# mine\n")
     result = command("init", tmp_path)
     assert result.return_value == 0
-    assert "osc2tx.toml: exists, left as it is" in result.output
+    assert "osc2tx.toml: exists, unchanged" in result.output
     assert (tmp_path / "osc2tx.toml").read_text() == "# mine\n"
     assert all((tmp_path / name).is_file() for name in FILES)
 

@@ -310,7 +310,7 @@ def conflict(month: Month) -> None:
         month.commit(branch)
     month.git("merge", "--no-edit", "other", code=1)
     month.build(code=3)
-    assert month.said.count("error[") == 1 and "a merge is not resolved here" in month.said
+    assert month.said.count("error[") == 1 and "a merge conflict is not resolved here" in month.said
     source = month.folder / "scenarios/jam/queue/queue_0000.osc"
     month.git("checkout", "--quiet", "--ours", str(source))
     assert b"<<<<<<<" in (month.folder / "generated/jam/queue/queue_0000.py").read_bytes()

@@ -211,7 +211,7 @@ def test_a_document_that_cannot_be_made_any_more_is_removed(shell: Shell) -> Non
     shell("build", "in", "-o", "out")
     shell.write("in/a.osc", HEAD + COMPUTED)
     ended = shell("build", "in", "-o", "out", "--check")
-    assert "out/a.xosc: is orphaned: a.osc makes no such file\n" in ended.err
+    assert "out/a.xosc: is orphaned: a.osc does not produce this file\n" in ended.err
     ended = shell("build", "in", "-o", "out")
     assert "1 removed" in ended.out
     assert "a.xosc" not in made(shell) and "a.computed.xosc.report.json" in made(shell)

@@ -77,16 +77,16 @@ FIELD = {
 
 # A member of `do serial`.
 MEMBER = {
-    "condition in a sum": ("wait rise(true) and true", "OSC201", "stands alone", "event e is"),
-    "condition negated": ("wait not elapsed(3s)", "OSC201", "stands alone", "event e is"),
+    "condition in a sum": ("wait rise(true) and true", "OSC201", "is used alone", "event e is"),
+    "condition negated": ("wait not elapsed(3s)", "OSC201", "is used alone", "event e is"),
     "time alone": ("wait 2s", "OSC301", "not `time`", "elapsed(2s)"),
     "event alone": ("wait e", "OSC301", "not `event`", "`@e`"),
     "emit with @": ("emit @e", "OSC100", "`@`", "emit e"),
     "variable as argument": ("ego.count(n: 4)", "OSC402", "is a variable", "without `var`"),
-    "repeat(3)": ("repeat(3):\n            ego.drive()", "OSC100", "no loops", "as often"),
-    "repeat 3": ("repeat 3:\n            ego.drive()", "OSC100", "no loops", "as often"),
-    "for": ("for i in l:\n            ego.drive()", "OSC100", "no loops", "as often"),
-    "while": ("while true:\n            ego.drive()", "OSC100", "no loops", "as often"),
+    "repeat(3)": ("repeat(3):\n            ego.drive()", "OSC100", "no loops", "repeat"),
+    "repeat 3": ("repeat 3:\n            ego.drive()", "OSC100", "no loops", "repeat"),
+    "for": ("for i in l:\n            ego.drive()", "OSC100", "no loops", "repeat"),
+    "while": ("while true:\n            ego.drive()", "OSC100", "no loops", "repeat"),
     "switch": ("switch 2:\n            ego.drive()", "OSC100", "no statement `switch`", "one_of"),
     "if": ("if ego.speed > 3mps:\n            ego.drive()", "OSC100", "no statement", "`wait`"),
     "sequence": ("sequence:\n            ego.drive()", "OSC100", "no composition", "`serial:`"),
