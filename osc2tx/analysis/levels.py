@@ -7,13 +7,13 @@ stated ranges and sets are open, and abstract otherwise.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from enum import Enum
 
 from osc2tx.analysis.constraints.operation_list import Key
 from osc2tx.analysis.constraints.parameter_lookup import is_of_scope, name_of
 from osc2tx.analysis.constraints.propagation import ConstraintAnalysis, State
-from osc2tx.analysis.constraints.value_text import format_free, format_range
+from osc2tx.analysis.constraints.value_text import format_free, format_range, format_value
 from osc2tx.analysis.lints.cast_checks import openings_of_cast
 from osc2tx.analysis.lints.liveness import keyword_span
 from osc2tx.analysis.lints.termination import Endings
@@ -237,3 +237,24 @@ def _open_event(event: ast.EventSpecification) -> Iterator[Opening]:
 
 def _within(value: ast.RangeLiteral) -> str:
     return f"in [{value.lower.span.text}..{value.upper.span.text}]"
+
+
+def fixed_values(
+    model: SemanticModel, scenario: sym.ScenarioSymbol, constraints: ConstraintAnalysis
+) -> Mapping[str, str]:
+    """Return the constants at compile time, by path: `about.priority`, as written in a scenario.
+
+    Strings come without quotes.
+    """
+    found = constraints.types[scenario]
+    members = (
+        found.parameter(key, last.type)
+        for key in found.by_key
+        if is_of_scope(key) and isinstance(last := key[-1], sym.FieldSymbol)
+    )
+    values = {
+        name_of(parameter.key): format_value(model, parameter)
+        for parameter in (*constraints.parameters(scenario), *members)
+        if parameter.state is State.FIXED
+    }
+    return dict(sorted(values.items()))

@@ -183,7 +183,7 @@ def _run(task: _Task, options: BuildOptions) -> tuple[BuildResult, Exit, str]:
             replace(options, cache=task.cache),
             configs=configs,
             progress=progress,
-            waiting=_say_who_builds,
+            waiting=_print_waiting,
         )
     changes = result.changes if options.check_only else ()
     faults = [
@@ -202,7 +202,7 @@ def _run(task: _Task, options: BuildOptions) -> tuple[BuildResult, Exit, str]:
     return result, code, found(report)
 
 
-def _say_who_builds(process: str) -> None:
+def _print_waiting(process: str) -> None:
     complain(f"waiting for the build of process {process}")
 
 
@@ -222,13 +222,13 @@ def _write(task: _Task) -> tuple[Exit, Sequence[FileResult]]:
     removed = [c for c in result.changes if c.state is State.ORPHANED and c.path in result.written]
     done = f"{count_of(len(result.written) - len(removed), 'file')} written"
     done += f", {len(removed)} removed" if removed else ""
-    _say_losses(task.reporter, result.results)
+    _print_losses(task.reporter, result.results)
     made = count_of(result.modules, "source" if task.given.target == "xosc" else "module")
     task.reporter.say(f"{made} in {task.out_dir}: {done}; {counts}")
     return code, result.results
 
 
-def _say_losses(reporter: Reporter, results: Sequence[FileResult]) -> None:
+def _print_losses(reporter: Reporter, results: Sequence[FileResult]) -> None:
     """Summarize the results of scenarios as XML; one line each if only XML is requested."""
     losses = [(result, loss) for result in results for loss in result.losses]
     for result, loss in losses:

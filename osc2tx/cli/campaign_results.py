@@ -57,7 +57,7 @@ def replay(
     """
     try:
         with Store(store) as opened:
-            _tell_whose(opened)
+            _state_origin(opened)
             name, result = replay_row(opened, row, trace, report, map_path)
     except CampaignError as error:
         raise click.UsageError(str(error)) from None
@@ -150,7 +150,7 @@ def _write_overview(place: Path, campaigns: Sequence[Results], pages: Sequence[P
     write_text("page", place, project_page(campaigns=listed))
 
 
-def _tell_whose(store: Store) -> None:
+def _state_origin(store: Store) -> None:
     """State that a module of the store runs."""
     complain(
         f"{store.path}: runs {store.plan['module']} as stored: code of the author of the store"
@@ -160,7 +160,7 @@ def _tell_whose(store: Store) -> None:
 def _read(place: Path) -> Results:
     with Store(place) as opened:
         if has_models(opened):
-            _tell_whose(opened)
+            _state_origin(opened)
         return results_of(opened)
 
 

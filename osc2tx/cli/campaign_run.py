@@ -255,7 +255,7 @@ def _files_of(
 ) -> tuple[dict[str, str], str, str] | Exit:
     """Return the files of a scenario's module, the name of the module and of the scenario."""
     if path.suffix == ".py":
-        reporter.report_nothing()
+        reporter.report_failed_start()
         files, module = written_files(path)
     else:
         (compilation,) = compile_all([path], given)

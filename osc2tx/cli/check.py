@@ -24,11 +24,7 @@ from osc2tx.cli.options import (
 )
 from osc2tx.cli.progress import progress_bar
 from osc2tx.cli.reporting import Exit, Reporter, count_of, found, report_options
-from osc2tx.cli.standard_input import (
-    is_standard_input,
-    job_of_standard_input,
-    stdin_filename,
-)
+from osc2tx.cli.standard_input import is_standard_input, job_of_standard_input, stdin_filename
 from osc2tx.compilation.file_reports import apply_suppressions
 from osc2tx.config import ConfigFiles, GivenOptions
 from osc2tx_shared.cache import cache_folder

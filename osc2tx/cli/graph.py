@@ -52,7 +52,7 @@ def graph(wanted: str | None, reverse: bool, affected: str | None, form: str) ->
             _shown(each.path): [_shown(cause) for cause in each.causes]
             for each in affected_since(affected, jobs, configs, index)
         }
-        _say_affected(found, affected, form)
+        _print_affected(found, affected, form)
         return Exit.OK
     usage = UsageGraph(index)
     if wanted is None and form == "text":
@@ -87,7 +87,7 @@ def _shown(path: Path) -> str:
     return str(seen_from(path, Path(os.path.realpath(Path.cwd()))))
 
 
-def _say_affected(found: Mapping[str, Sequence[str]], revision: str, form: str) -> None:
+def _print_affected(found: Mapping[str, Sequence[str]], revision: str, form: str) -> None:
     if form == "json":
         put_document(render_json(Graph((), {}), affected=found))
         return

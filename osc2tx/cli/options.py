@@ -12,14 +12,7 @@ from typing import Any
 import click
 
 from osc2tx.config import Config, ConfigFiles, GivenOptions
-from osc2tx.options import (
-    DIALECTS,
-    ONE_OF_POLICIES,
-    STANDARDS,
-    TARGETS,
-    XML_PROFILES,
-    XML_VERSIONS,
-)
+from osc2tx.options import DIALECTS, ONE_OF_POLICIES, STANDARDS, TARGETS, XML_PROFILES, XML_VERSIONS
 from osc2tx.support.paths import real_path
 from osc2tx_shared.classes import replace
 

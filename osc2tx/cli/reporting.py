@@ -120,7 +120,7 @@ class Reporter:
             put(bug, err=True)
         if bugs:
             complain(BUG_REPORT)
-        self._say_what_was_not_compiled(compilations)
+        self._print_uncompiled(compilations)
         for fault in faults:
             if fault.diff is None:
                 complain(f"{fault.file}: {fault.message}")
@@ -161,7 +161,7 @@ class Reporter:
         report = replace(report, scenarios=tuple(entries), faults=tuple(faults))
         return self._exit_code(compilations, report, bugs), report
 
-    def report_nothing(self) -> None:
+    def report_failed_start(self) -> None:
         """Print that there is nothing to report, where programs expect a document."""
         self._print(Report(), failed=False)
 
@@ -175,7 +175,7 @@ class Reporter:
         return Exit.WARNINGS if self.is_strict and sentences else Exit.OK
 
     @staticmethod
-    def _say_what_was_not_compiled(compilations: Sequence[Reportable]) -> None:
+    def _print_uncompiled(compilations: Sequence[Reportable]) -> None:
         """Count files without an error of their own that a library keeps from being compiled."""
         waiting: Counter[str] = Counter()
         for each in compilations:
@@ -278,13 +278,13 @@ def report_failure(message: str, arguments: Sequence[str], session: Session) -> 
         arguments: The command line; it may be invalid, so only the form is read.
         session: Knows whether there is a document already.
     """
-    form = _form_asked_for(arguments)
+    form = _requested_form(arguments)
     if form != "text" and not session.has_document:
         session.has_document = True
         put_document(_document(Report(failure=message), form, failed=True))
 
 
-def _form_asked_for(arguments: Sequence[str]) -> OutputFormat:
+def _requested_form(arguments: Sequence[str]) -> OutputFormat:
     form: OutputFormat = "text"
     for index, argument in enumerate(arguments):
         name, sign, value = argument.partition("=")

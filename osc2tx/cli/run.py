@@ -112,7 +112,7 @@ def run(
     except SettingsError as error:
         raise click.UsageError(error.message) from None
     if path.suffix == ".py":
-        reporter.report_nothing()
+        reporter.report_failed_start()
         return _run_written(path, scenario, settings, reporter)
     (compilation,) = compile_all([path], with_maps_of(given, settings))
     return _run_source(compilation, scenario, settings, reporter)

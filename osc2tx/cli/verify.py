@@ -20,14 +20,8 @@ from osc2tx.module_loading import scenarios_of_file, scenarios_of_module
 from osc2tx_runtime import ScenarioError
 from osc2tx_runtime.errors import InputError as UnreadableError
 from osc2tx_runtime.errors import coded
-from osc2tx_runtime.running.verification import (
-    RecordedRun,
-    Verification,
-    read_trace,
-)
-from osc2tx_runtime.running.verification import (
-    verify as check,
-)
+from osc2tx_runtime.running.verification import RecordedRun, Verification, read_trace
+from osc2tx_runtime.running.verification import verify as check
 from osc2tx_shared.text import complain, put, say
 
 if TYPE_CHECKING:

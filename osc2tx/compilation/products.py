@@ -81,7 +81,7 @@ def entries_of(
         analysis: The analysis of its constraints.
         lowered: The program in the IR, which states what can run by itself; `None` before that.
     """
-    from osc2tx.analysis.fixed_values import fixed_values
+    from osc2tx.analysis.levels import fixed_values
 
     scenarios = () if lowered is None else lowered.scenarios
     runnable = {each.name for each in scenarios if each.is_runnable}

@@ -5,30 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import assert_never
 
-from osc2tx.ir.behaviors import (
-    Behavior,
-    Call,
-    Condition,
-    Edge,
-    Elapsed,
-    Emit,
-    EventRef,
-    Every,
-    Finish,
-    InnerEvent,
-    Invoke,
-    InvokeScenario,
-    LabelEvent,
-    Level,
-    ModifierCall,
-    Moment,
-    On,
-    OneOf,
-    Parallel,
-    Serial,
-    Trigger,
-    Wait,
-)
+from osc2tx.ir import behaviors as tree
 from osc2tx.ir.coverage import Coverage
 from osc2tx.ir.declarations import (
     Actor,
@@ -41,21 +18,9 @@ from osc2tx.ir.declarations import (
     Variable,
 )
 from osc2tx.ir.expression_text import show, show_arguments
-from osc2tx.ir.expressions import (
-    Expression,
-)
-from osc2tx.ir.nodes import (
-    AbstractScenario,
-    Module,
-    Placement,
-    Scenario,
-)
-from osc2tx.ir.user_types import (
-    UserAction,
-    UserEnum,
-    UserModifier,
-    UserType,
-)
+from osc2tx.ir.expressions import Expression
+from osc2tx.ir.nodes import AbstractScenario, Module, Placement, Scenario
+from osc2tx.ir.user_types import UserAction, UserEnum, UserModifier, UserType
 
 INDENT = "  "
 
@@ -141,7 +106,7 @@ def _scenario(scenario: AbstractScenario, base: str | None) -> Iterator[str]:
 
 def _coverage(item: Coverage) -> str:
     what = ", ".join(item.items) if item.expression is None else show(item.expression)
-    event = item.event.value if isinstance(item.event, Moment) else item.event.name
+    event = item.event.value if isinstance(item.event, tree.Moment) else item.event.name
     options = {
         "unit": item.unit and item.unit.name,
         "range": item.within,
@@ -176,7 +141,7 @@ def _declaration(declaration: Declaration) -> Iterator[str]:
             sampled = ""
             if sample is not None:
                 when = sample.trigger
-                at = f"@{when.value}" if isinstance(when, Moment) else _trigger(when)
+                at = f"@{when.value}" if isinstance(when, tree.Moment) else _trigger(when)
                 sampled = f" sampled {show(sample.expression)} at {at}"
             yield f"variable {name}: {type_}{initial}{sampled} @{line}"
         case Event(name=name, trigger=trigger):
@@ -203,29 +168,29 @@ def _placement(placement: Placement) -> Iterator[str]:
     yield from _indented(_modifier(modifier) for modifier in placement.modifiers)
 
 
-def _modifier(modifier: ModifierCall) -> str:
+def _modifier(modifier: tree.ModifierCall) -> str:
     at = "" if modifier.at == "all" else f" at {modifier.at}"
     of = "".join(f" of @{application.span.line}" for application in reversed(modifier.applied))
     return f"{modifier.name}({show_arguments(modifier.arguments)}){at} @{modifier.span.line}{of}"
 
 
-def _behavior(node: Behavior) -> Iterator[str]:
+def _behavior(node: tree.Behavior) -> Iterator[str]:
     label = f" [{node.label}]" if node.label else ""
     place = f"{label} @{node.span.line}"
     match node:
-        case Serial() | Parallel() | OneOf():
+        case tree.Serial() | tree.Parallel() | tree.OneOf():
             yield f"{type(node).__name__} {node.name!r}{place}"
             yield from _indented(_composition_details(node))
             for member in node.members:
                 yield from _indented(_behavior(member))
-        case Invoke(action=action, arguments=arguments):
+        case tree.Invoke(action=action, arguments=arguments):
             who = f"{show(node.actor)}." if node.actor is not None else ""
             own = "own " if node.is_own else ""
             called = f"{who}{action}({show_arguments(arguments)})"
             yield f"Invoke {own}{node.qualified_name}: {called}{place}"
             yield from _indented(_modifier(modifier) for modifier in node.modifiers)
             yield from _indented(_limits(node.duration, node.until))
-        case InvokeScenario(scenario=scenario, actor=actor, arguments=arguments):
+        case tree.InvokeScenario(scenario=scenario, actor=actor, arguments=arguments):
             who = f"{show(actor)}." if actor is not None else ""
             yield f"InvokeScenario {who}{scenario}({show_arguments(arguments)}){place}"
             for special in node.specials:
@@ -234,15 +199,15 @@ def _behavior(node: Behavior) -> Iterator[str]:
             if node.times:
                 yield from _indented(iter((f"times {show_arguments(node.times)}",)))
             yield from _indented(_limits(node.duration, node.until))
-        case Wait(trigger=trigger):
+        case tree.Wait(trigger=trigger):
             yield f"Wait {_trigger(trigger)}{place}"
-        case Emit(event=event, arguments=arguments):
+        case tree.Emit(event=event, arguments=arguments):
             yield f"Emit {event.name}({show_arguments(arguments)}){place}"
-        case Finish(succeeds=succeeds):
+        case tree.Finish(succeeds=succeeds):
             yield f"Finish {'end' if succeeds else 'fail'}{place}"
-        case Call(call=call):
+        case tree.Call(call=call):
             yield f"Call {show(call)}{place}"
-        case On(trigger=trigger, reactions=reactions):
+        case tree.On(trigger=trigger, reactions=reactions):
             yield f"On {_trigger(trigger)}{place}"
             for reaction in reactions:
                 yield from _indented(_behavior(reaction))
@@ -250,27 +215,27 @@ def _behavior(node: Behavior) -> Iterator[str]:
             assert_never(node)
 
 
-def _composition_details(node: Serial | Parallel | OneOf) -> Iterator[str]:
-    if isinstance(node, Parallel) and node.overlap is not None:
+def _composition_details(node: tree.Serial | tree.Parallel | tree.OneOf) -> Iterator[str]:
+    if isinstance(node, tree.Parallel) and node.overlap is not None:
         yield f"overlap {node.overlap}"
     yield from _limits(node.duration, node.until)
 
 
-def _limits(duration: Expression | None, until: tuple[Trigger, ...]) -> Iterator[str]:
+def _limits(duration: Expression | None, until: tuple[tree.Trigger, ...]) -> Iterator[str]:
     if duration is not None:
         yield f"duration {show(duration)}"
     for trigger in until:
         yield f"until {_trigger(trigger)}"
 
 
-def _trigger(trigger: Trigger) -> str:
+def _trigger(trigger: tree.Trigger) -> str:
     parts = []
     match trigger.event:
-        case EventRef(name=name):
+        case tree.EventRef(name=name):
             parts.append(f"@{name}")
-        case LabelEvent(label=label, moment=moment):
+        case tree.LabelEvent(label=label, moment=moment):
             parts.append(f"@{label}.{moment.value}")
-        case InnerEvent(label=label, name=name):
+        case tree.InnerEvent(label=label, name=name):
             parts.append(f"@{label}.{name}")
         case None:
             pass
@@ -279,14 +244,14 @@ def _trigger(trigger: Trigger) -> str:
     return " if ".join(parts)
 
 
-def _condition(condition: Condition) -> str:
+def _condition(condition: tree.Condition) -> str:
     match condition:
-        case Level(expression=expression):
+        case tree.Level(expression=expression):
             return show(expression)
-        case Edge(rising=rising, expression=expression):
+        case tree.Edge(rising=rising, expression=expression):
             return f"{'rise' if rising else 'fall'}({show(expression)})"
-        case Elapsed(duration=duration):
+        case tree.Elapsed(duration=duration):
             return f"elapsed({show(duration)})"
-        case Every(period=period, offset=offset):
+        case tree.Every(period=period, offset=offset):
             shift = f", offset: {show(offset)}" if offset is not None else ""
             return f"every({show(period)}{shift})"

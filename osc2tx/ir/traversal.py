@@ -9,37 +9,9 @@ from math import inf
 from types import MappingProxyType
 from typing import Any, TypeAlias
 
+from osc2tx.ir import expressions as expr
 from osc2tx.ir.behaviors import ModifierCall
-from osc2tx.ir.expressions import (
-    Argument,
-    Attribute,
-    Binary,
-    Choices,
-    Conditional,
-    Conversion,
-    Downcast,
-    Element,
-    EnumValue,
-    EventArgument,
-    Expression,
-    FieldRef,
-    HalfRange,
-    Index,
-    InvokedValue,
-    ListOperation,
-    ListValue,
-    Literal,
-    Lookup,
-    MethodCall,
-    ParameterRef,
-    Quantity,
-    RangeValue,
-    ScenarioSelf,
-    TypeTest,
-    Unary,
-    Undefined,
-    UserShape,
-)
+from osc2tx.ir.expressions import Expression
 from osc2tx.ir.values import ExpressionBase
 from osc2tx_shared.classes import replace
 
@@ -71,19 +43,19 @@ def bounds(
     found: list[Bounds] = []
     for part in _postfix(expression):
         match part:
-            case Literal(value=int() | float() as value) if not isinstance(value, bool):
+            case expr.Literal(value=int() | float() as value) if not isinstance(value, bool):
                 found.append((value, value))
-            case Quantity():
+            case expr.Quantity():
                 found.append((part.si, part.si))
-            case FieldRef(name=name) if name in values:
+            case expr.FieldRef(name=name) if name in values:
                 of_parameter = _bounds_of_domain(values[name])
                 if of_parameter is None:
                     return None
                 found.append(of_parameter)
-            case Unary(operator="-"):
+            case expr.Unary(operator="-"):
                 low, high = found.pop()
                 found.append((-high, -low))
-            case Binary(operator=sign) if sign in OPERATIONS:
+            case expr.Binary(operator=sign) if sign in OPERATIONS:
                 right, left = found.pop(), found.pop()
                 if sign == "/" and right[0] <= 0.0 <= right[1]:
                     return None
@@ -97,14 +69,14 @@ def bounds(
 def _bounds_of_domain(domain: Expression) -> Bounds | None:
     """Return the least and the greatest of a value, a range or a set of numbers."""
     match domain:
-        case RangeValue(lower=lower, upper=upper):
+        case expr.RangeValue(lower=lower, upper=upper):
             ends = [bounds(lower), bounds(upper)]
-        case HalfRange(bound=bound, is_lower=is_lower):
+        case expr.HalfRange(bound=bound, is_lower=is_lower):
             end = constant(bound)
             if end is None:
                 return None
             return (end, inf) if is_lower else (-inf, end)
-        case Choices(elements=elements):
+        case expr.Choices(elements=elements):
             ends = [bounds(element) for element in elements]
         case _:
             return bounds(domain)
@@ -122,9 +94,9 @@ def _postfix(expression: Expression) -> list[Expression]:
         current = pending.pop()
         ordered.append(current)
         match current:
-            case Unary(operand=operand):
+            case expr.Unary(operand=operand):
                 pending.append(operand)
-            case Binary(left=left, right=right):
+            case expr.Binary(left=left, right=right):
                 pending.extend((left, right))
             case _:
                 pass
@@ -133,8 +105,8 @@ def _postfix(expression: Expression) -> list[Expression]:
 
 
 _LEAVES = (
-    *(Literal, Quantity, EnumValue, FieldRef, ParameterRef),
-    *(ScenarioSelf, EventArgument, InvokedValue, Element, Undefined),
+    *(expr.Literal, expr.Quantity, expr.EnumValue, expr.FieldRef, expr.ParameterRef),
+    *(expr.ScenarioSelf, expr.EventArgument, expr.InvokedValue, expr.Element, expr.Undefined),
 )
 _LEAF_TYPES = frozenset[type](_LEAVES)
 
@@ -144,33 +116,33 @@ def children(expression: Expression) -> tuple[Expression, ...]:
     if isinstance(expression, _LEAVES):
         return ()
     match expression:
-        case Attribute(base=base):
+        case expr.Attribute(base=base):
             return (base,)
-        case MethodCall(base=base, arguments=arguments):
+        case expr.MethodCall(base=base, arguments=arguments):
             values = tuple(argument.value for argument in arguments)
             return values if expression.needs_no_object else (base, *values)
-        case ListOperation(base=base, argument=argument):
+        case expr.ListOperation(base=base, argument=argument):
             return (base,) if argument is None else (base, argument)
-        case Index(base=base, index=index):
+        case expr.Index(base=base, index=index):
             return (base, index)
         case (
-            Unary(operand=operand)
-            | Conversion(operand=operand)
-            | Lookup(operand=operand)
-            | TypeTest(operand=operand)
-            | Downcast(operand=operand)
-            | UserShape(operand=operand)
+            expr.Unary(operand=operand)
+            | expr.Conversion(operand=operand)
+            | expr.Lookup(operand=operand)
+            | expr.TypeTest(operand=operand)
+            | expr.Downcast(operand=operand)
+            | expr.UserShape(operand=operand)
         ):
             return (operand,)
-        case Binary(left=left, right=right):
+        case expr.Binary(left=left, right=right):
             return (left, right)
-        case Conditional(condition=condition, when_true=when_true, when_false=when_false):
+        case expr.Conditional(condition=condition, when_true=when_true, when_false=when_false):
             return (condition, when_true, when_false)
-        case ListValue(elements=elements) | Choices(elements=elements):
+        case expr.ListValue(elements=elements) | expr.Choices(elements=elements):
             return elements
-        case HalfRange(bound=bound):
+        case expr.HalfRange(bound=bound):
             return (bound,)
-        case RangeValue(lower=lower, upper=upper):
+        case expr.RangeValue(lower=lower, upper=upper):
             return (lower, upper)
 
 
@@ -191,9 +163,9 @@ def walk(expression: Expression) -> tuple[Expression, ...]:
 def is_live(expression: Expression) -> bool:
     """Whether the value depends on the state of the world, so that it must be read late."""
     return any(
-        isinstance(part, EventArgument)
-        or (isinstance(part, MethodCall) and not part.is_pure)
-        or (isinstance(part, Attribute | FieldRef) and part.is_variable)
+        isinstance(part, expr.EventArgument)
+        or (isinstance(part, expr.MethodCall) and not part.is_pure)
+        or (isinstance(part, expr.Attribute | expr.FieldRef) and part.is_variable)
         for part in walk(expression)
     )
 
@@ -215,7 +187,7 @@ def rewrite(
         match value:
             case ExpressionBase():
                 return rewrite(value, replacement)  # type: ignore[arg-type]  # all of them are
-            case Argument():
+            case expr.Argument():
                 return replace(value, value=rewrite(value.value, replacement))
             case tuple():
                 parts = tuple(changed(part) for part in value)
@@ -235,9 +207,9 @@ def applied_with(
     """Return the result of a user-defined function for values of its parameters."""
 
     def value_of(part: Expression) -> Expression | None:
-        return values.get(part.name) if isinstance(part, ParameterRef) else None
+        return values.get(part.name) if isinstance(part, expr.ParameterRef) else None
 
-    def filled(arguments: tuple[Argument, ...]) -> tuple[Argument, ...]:
+    def filled(arguments: tuple[expr.Argument, ...]) -> tuple[expr.Argument, ...]:
         return tuple(replace(each, value=rewrite(each.value, value_of)) for each in arguments)
 
     return tuple(

@@ -6,29 +6,7 @@ from collections.abc import Iterator
 from functools import lru_cache
 
 from osc2tx.diagnostics import InternalCompilerError
-from osc2tx.ir.behaviors import (
-    Behavior,
-    Call,
-    Condition,
-    Edge,
-    Elapsed,
-    Emit,
-    EventRef,
-    Every,
-    InnerEvent,
-    Invoke,
-    InvokeScenario,
-    LabelEvent,
-    Level,
-    ModifierCall,
-    Moment,
-    On,
-    OneOf,
-    Parallel,
-    Serial,
-    Trigger,
-    Wait,
-)
+from osc2tx.ir import behaviors as tree
 from osc2tx.ir.declarations import Actor, Event, Parameter, Struct, Variable
 from osc2tx.ir.expressions import Expression, FieldRef, ParameterRef
 from osc2tx.ir.nodes import AbstractScenario, Module, Scenario
@@ -106,7 +84,7 @@ class _ScenarioVerifier:
             for expression in (item.expression, item.ignore, item.illegal):
                 if expression is not None:
                     self.check_expression(expression)
-            if isinstance(item.event, EventRef):
+            if isinstance(item.event, tree.EventRef):
                 self.check_event(item.event)
         for placement in scenario.placements:
             self.require(placement.actor in self.actors, f"placement of {placement.actor!r}")
@@ -141,7 +119,7 @@ class _ScenarioVerifier:
                         self.check_expression(value, declared)
                     if sample is not None:
                         self.check_expression(sample.expression)
-                        if not isinstance(sample.trigger, Moment):
+                        if not isinstance(sample.trigger, tree.Moment):
                             self.check_trigger(sample.trigger)
                 case Event(trigger=trigger):
                     if trigger is not None:
@@ -164,12 +142,12 @@ class _ScenarioVerifier:
                     self.require(part.name in known, f"parameter {part.name!r} of {method.name!r}")
             self.check_expression(method.expression)
 
-    def check_behavior(self, node: Behavior) -> None:
+    def check_behavior(self, node: tree.Behavior) -> None:
         match node:
-            case Serial() | Parallel() | OneOf():
+            case tree.Serial() | tree.Parallel() | tree.OneOf():
                 self.require(bool(node.members), f"empty composition {node.name!r}")
                 self.check_limits(node.duration, node.until)
-            case Invoke():
+            case tree.Invoke():
                 self.require(
                     (node.actor is None) is (node.owner is None), f"owner of {node.name!r}"
                 )
@@ -181,7 +159,7 @@ class _ScenarioVerifier:
                 for modifier in node.modifiers:
                     self.check_modifier(modifier)
                 self.check_limits(node.duration, node.until)
-            case InvokeScenario():
+            case tree.InvokeScenario():
                 for argument in (*node.arguments, *node.times):
                     self.check_expression(argument.value)
                 given = {argument.parameter for argument in node.arguments}
@@ -191,36 +169,36 @@ class _ScenarioVerifier:
                 if node.actor is not None:
                     self.check_expression(node.actor)
                 self.check_limits(node.duration, node.until)
-            case Wait(trigger=trigger):
+            case tree.Wait(trigger=trigger):
                 self.check_trigger(trigger)
-            case Emit(event=event):
+            case tree.Emit(event=event):
                 self.check_event(event)
-            case On(trigger=trigger, reactions=reactions):
+            case tree.On(trigger=trigger, reactions=reactions):
                 self.check_trigger(trigger)
                 for reaction in reactions:
                     self.check_behavior(reaction)
-            case Call(call=call):
+            case tree.Call(call=call):
                 self.check_expression(call)
 
-    def check_limits(self, duration: Expression | None, until: tuple[Trigger, ...]) -> None:
+    def check_limits(self, duration: Expression | None, until: tuple[tree.Trigger, ...]) -> None:
         if duration is not None:
             self.check_expression(duration)
         for trigger in until:
             self.check_trigger(trigger)
 
-    def check_modifier(self, modifier: ModifierCall) -> None:
+    def check_modifier(self, modifier: tree.ModifierCall) -> None:
         self.require(modifier.at in ("start", "end", "all"), f"`at` of {modifier.name!r}")
         for argument in modifier.arguments:
             self.check_expression(argument.value)
 
-    def check_trigger(self, trigger: Trigger) -> None:
+    def check_trigger(self, trigger: tree.Trigger) -> None:
         self.require(
             trigger.event is not None or trigger.condition is not None, "trigger without content"
         )
         match trigger.event:
-            case EventRef():
+            case tree.EventRef():
                 self.check_event(trigger.event)
-            case LabelEvent(label=label) | InnerEvent(label=label):
+            case tree.LabelEvent(label=label) | tree.InnerEvent(label=label):
                 self.require(label in self.labels, f"reference to label {label!r}")
             case None:
                 pass
@@ -228,7 +206,7 @@ class _ScenarioVerifier:
             for expression in condition_expressions(trigger.condition):
                 self.check_expression(expression)
 
-    def check_event(self, event: EventRef) -> None:
+    def check_event(self, event: tree.EventRef) -> None:
         self.require(event.name in self.events, f"reference to event {event.name!r}")
 
     def check_expression(self, expression: Expression, declared: set[str] | None = None) -> None:
@@ -238,25 +216,25 @@ class _ScenarioVerifier:
                 self.require(part.name in known, f"reference to field {part.name!r}")
 
 
-def condition_expressions(condition: Condition) -> tuple[Expression, ...]:
+def condition_expressions(condition: tree.Condition) -> tuple[Expression, ...]:
     """Return the expressions directly inside a condition."""
     match condition:
-        case Level(expression=expression) | Edge(expression=expression):
+        case tree.Level(expression=expression) | tree.Edge(expression=expression):
             return (expression,)
-        case Elapsed(duration=duration):
+        case tree.Elapsed(duration=duration):
             return (duration,)
-        case Every(period=period, offset=offset):
+        case tree.Every(period=period, offset=offset):
             return (period,) if offset is None else (period, offset)
 
 
 @lru_cache(maxsize=512)  # back ends walk the same bodies for each member
-def walk_behaviors(root: Behavior) -> tuple[Behavior, ...]:
+def walk_behaviors(root: tree.Behavior) -> tuple[tree.Behavior, ...]:
     """Return a behavior and everything below it in source order, without recursion."""
-    found: list[Behavior] = []
+    found: list[tree.Behavior] = []
     pending = [root]
     while pending:
         node = pending.pop()
         found.append(node)
-        if isinstance(node, Serial | Parallel | OneOf):
+        if isinstance(node, tree.Serial | tree.Parallel | tree.OneOf):
             pending.extend(reversed(node.members))
     return tuple(found)

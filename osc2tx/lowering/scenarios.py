@@ -41,10 +41,7 @@ from osc2tx.lowering.declarations.user_types import lower_enums, lower_types, lo
 from osc2tx.lowering.modifiers.modifier_functions import lower_modifiers, own_modifiers
 from osc2tx.lowering.modifiers.override_modifiers import lower_overrides
 from osc2tx.lowering.modifiers.standing_modifiers import StandingModifiers
-from osc2tx.lowering.placement.initial_placement import (
-    PlacementLowering,
-    merged,
-)
+from osc2tx.lowering.placement.initial_placement import PlacementLowering, merged
 from osc2tx.lowering.placement.member_placements import member_placements
 from osc2tx.lowering.unsupported_members import report_unsupported_members
 from osc2tx.lowering.values.expressions import lower_expression

@@ -14,7 +14,7 @@ from osc2tx.semantics.declarations.resolve import resolve_declarations
 from osc2tx.semantics.dialects import Dialect, Relaxations
 from osc2tx.semantics.expressions import infer
 from osc2tx.semantics.model import SemanticModel
-from osc2tx.semantics.names.actors_by_name import hand_over_actors
+from osc2tx.semantics.names.actors_by_name import pass_actors
 from osc2tx.semantics.resolution import Resolution
 from osc2tx.semantics.scope import Scope
 from osc2tx.semantics.symbols import (
@@ -29,7 +29,7 @@ from osc2tx.syntax import ast
 from osc2tx_shared.classes import dataclass
 
 
-def tell_types_apart(scope: Scope) -> None:
+def rename_ambiguous_types(scope: Scope) -> None:
     """Rename the types of a layer whose names denote other types as well."""
     for name, group in scope.types.items():
         below = scope.parent is not None and scope.parent.types_named(name)
@@ -77,8 +77,8 @@ class ModelBuilder:
         _check_uses(resolution, walk.files)
         resolve_declarations(resolution, collector)
         check_bodies(resolution)
-        hand_over_actors(resolution)
-        tell_types_apart(resolution.scope)
+        pass_actors(resolution)
+        rename_ambiguous_types(resolution.scope)
         return _model(root, tuple(walk.files), resolution, library)
 
     def _library(self, walk: ImportWalk) -> Library:

@@ -37,7 +37,7 @@ NUMBERS = (INT, UINT, FLOAT)
 
 # Struct of the library -> the field whose values convert to it. Phases of traffic lights consist of
 # bulbs (§8.15.6.1); all examples of the standard write their states instead (§8.15.10.5).
-STANDS_FOR = {"traffic_light_bulb": "state"}
+CONVERTIBLE_FIELDS = {"traffic_light_bulb": "state"}
 
 
 def dimension_of(type_: Type) -> Dimension | None:
@@ -80,11 +80,11 @@ def type_of_owner(symbol: TypeSymbol) -> Type:
             return ERROR
 
 
-def stand_in(type_: Type) -> Type | None:
+def convertible_type(type_: Type) -> Type | None:
     """Return the type of the values that convert to a struct of the library."""
     if not isinstance(type_, StructType) or type_.symbol.origin != "library":
         return None
-    field = type_.symbol.members.get(STANDS_FOR.get(type_.symbol.name, ""))
+    field = type_.symbol.members.get(CONVERTIBLE_FIELDS.get(type_.symbol.name, ""))
     return field.type if isinstance(field, FieldSymbol) else None
 
 
@@ -107,7 +107,7 @@ def converts(source: Type, target: Type) -> bool:
         case _, RangeType():
             return converts(source, target.element)
         case EnumType(), StructType():
-            return source == stand_in(target)
+            return source == convertible_type(target)
         case _:
             derived, ancestor = symbol_of(source), symbol_of(target)
             return derived is not None and ancestor is not None and is_subtype(derived, ancestor)

@@ -19,14 +19,13 @@ statement; every stage is linear in the size of the text; only this package impo
 messages about syntax errors, and no object of antlr4 leaves it.
 """
 
-from collections.abc import Collection
+from collections.abc import Collection, Iterator
 from pathlib import Path
 
 from osc2tx.diagnostics import DiagnosticSink, SourceFile, Span
 from osc2tx.support.recursion import room_for_trees
 from osc2tx.syntax import ast
 from osc2tx.syntax.dump import dump_ast
-from osc2tx.syntax.merge_conflicts import merge_conflicts
 
 __all__ = ["dump_ast", "parse", "read_source"]
 
@@ -111,3 +110,23 @@ def read_source(path: Path, name: str, sink: DiagnosticSink) -> SourceFile | Non
 def _reason(error: OSError | ValueError) -> str:
     reason = error.strerror if isinstance(error, OSError) else None
     return (reason or str(error)).lower()
+
+
+_MARKERS = ("<<<<<<< ", "=======", ">>>>>>> ")
+
+
+def merge_conflicts(source: SourceFile) -> Iterator[Span]:
+    """Yield the first line of each conflict that has all three markers, in this order."""
+    if f"\n{_MARKERS[0]}" not in f"\n{source.text}":
+        return
+    position, found = 0, None
+    seen = 0  # of the markers
+    for line in source.text.splitlines(keepends=True):
+        if line.startswith(_MARKERS[0]):
+            found, seen = Span(source, position, position + len(line.rstrip())), 1
+        elif found is not None and line.startswith(_MARKERS[seen]):
+            seen += 1
+            if seen == len(_MARKERS):
+                yield found
+                found = None
+        position += len(line)

@@ -15,13 +15,13 @@ from osc2tx.xosc import elements as xml
 from osc2tx.xosc.arithmetic import Range, Shown, evaluated, range_of
 from osc2tx.xosc.element import Element, text_of
 
-SAID_BESIDE = frozenset({"FileHeader", "ParameterDeclarations"})
+WITHOUT_EFFECT = frozenset({"FileHeader", "ParameterDeclarations"})
 """Parts of a document without effect on a run."""
 
 
 def story_of(document: Element) -> Element:
     """Return a document with the parts that have an effect on a run."""
-    return document.with_children(*(p for p in document.children if p.tag not in SAID_BESIDE))
+    return document.with_children(*(p for p in document.children if p.tag not in WITHOUT_EFFECT))
 
 
 class Place(NamedTuple):
@@ -113,7 +113,7 @@ def _is_same(a: str, b: str, shown: Shown) -> bool:
 
 def with_texts(document: Element, texts: Mapping[Place, str]) -> Element:
     """Return a document with other texts of attributes of its story."""
-    beside = (part for part in document.children if part.tag in SAID_BESIDE)
+    beside = (part for part in document.children if part.tag in WITHOUT_EFFECT)
     story = _with_texts(story_of(document), texts, ())
     return document.with_children(*beside, *story.children)
 

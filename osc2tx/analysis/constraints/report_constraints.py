@@ -148,13 +148,13 @@ def _about(conflict: tuple[Constraint, ...]) -> str:
 
 def _labels(conflict: tuple[Constraint, ...], primary: Constraint) -> list[Label]:
     return [
-        Label(c.span, f"{'default' if c.is_default else _what(c)}: {_says(c)}")
+        Label(c.span, f"{'default' if c.is_default else _what(c)}: {_constraint_text(c)}")
         for c in conflict
         if c is not primary
     ][:MOST_LABELS]
 
 
-def _says(constraint: Constraint) -> str:
+def _constraint_text(constraint: Constraint) -> str:
     text = " ".join(constraint.span.text.split())
     if constraint.origin == "element":
         return f"`{text}` is one of several alternatives"

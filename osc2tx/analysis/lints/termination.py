@@ -72,7 +72,7 @@ class _TerminationAnalysis:
 
     def _has_own_duration(self, behavior: Behavior) -> bool:
         return any(
-            _says_own_duration(self.model, statement)
+            _states_own_duration(self.model, statement)
             for ancestor in supertypes(behavior)
             for statement in ancestor.statements
         )
@@ -162,7 +162,7 @@ def _speaks_of_end(modifier: ast.ModifierApplication) -> bool:
     )
 
 
-def _says_own_duration(model: SemanticModel, member: ast.Statement) -> bool:
+def _states_own_duration(model: SemanticModel, member: ast.Statement) -> bool:
     """Whether a member of a scenario constrains how long that takes."""
     if isinstance(member, ast.ModifierApplication):
         return _speaks_of_duration(model, member)

@@ -5,13 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 
 from osc2tx import ir
-from osc2tx.backends.py_trees.code import (
-    Level,
-    PyExpr,
-    PyName,
-    literal,
-    name_expression,
-)
+from osc2tx.backends.py_trees.code import Level, PyExpr, PyName, literal, name_expression
 from osc2tx.backends.py_trees.comments import around, comments
 from osc2tx.backends.py_trees.expressions import ExpressionWriter
 from osc2tx.backends.py_trees.modifier_calls import ModifierCalls

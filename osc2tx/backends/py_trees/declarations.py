@@ -73,7 +73,7 @@ class DeclarationWriter:
                     target=None,
                     value=self._narrowing(here, there),
                     comments=comments(
-                        () if here.name in self._own.early else _lines_besides(here, there)
+                        () if here.name in self._own.early else _further_lines(here, there)
                     ),
                 )
                 for there, here in pairs
@@ -90,7 +90,7 @@ class DeclarationWriter:
         return StatementView(
             target=self_attribute(self._names[here.name]),
             value=self._declared_value(here),
-            comments=comments(_lines_besides(here, there)),
+            comments=comments(_further_lines(here, there)),
         )
 
     def _narrowing(self, declaration: ir.Declaration, there: ir.Declaration) -> ArgumentView:
@@ -141,11 +141,11 @@ class DeclarationWriter:
             target=self_attribute(name),
             value=self._declared_value(declaration),
             **around(lines),
-            blank_before=not is_first and self._stands_apart(declaration),
+            blank_before=not is_first and self._has_blank_line(declaration),
             annotation=self._declared_type(declaration),
         )
 
-    def _stands_apart(self, declaration: ir.Declaration) -> bool:
+    def _has_blank_line(self, declaration: ir.Declaration) -> bool:
         """Whether a blank line is above a declaration in its source, or above all of its source."""
         source, number = declaration.span.source, declaration.span.line - 1
         before, self._source = self._source, source
@@ -291,7 +291,7 @@ def _is_assigned(declaration: ir.Declaration) -> bool:
     return isinstance(declaration, ir.Parameter) and declaration.is_fixed
 
 
-def _lines_besides(here: ir.Declaration, there: ir.Declaration) -> tuple[str, ...]:
+def _further_lines(here: ir.Declaration, there: ir.Declaration) -> tuple[str, ...]:
     """Return the comment lines of the constraints that narrow a declaration."""
     return tuple(line for line in here.comments if line not in there.comments)
 

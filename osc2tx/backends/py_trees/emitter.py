@@ -142,7 +142,7 @@ def emit(
         siblings=siblings,
         root=_root(module) if siblings else None,
         api_level=API_LEVEL,
-        units=_told_units(uses.units(), module),
+        units=_comments_of_units(uses.units(), module),
         enums=_explained_enums(uses.enums(), names, sharing, module),
         scenarios=_explained(scenario_views, scenarios, sharing),
         mains=tuple(names[scenario.key] for scenario in own_scenarios(module)),
@@ -189,12 +189,12 @@ def _explained_enums(
     reasons = {names[key]: PyComment.of(reason) for key, reason in sharing.copies.items()}
     declared = {names[key_of(each)]: each for each in module.enums if key_of(each) in names}
     return tuple(
-        replace(_told_enum(view, declared.get(view.name)), copied=reasons.get(view.name))
+        replace(_comments_of_enum(view, declared.get(view.name)), copied=reasons.get(view.name))
         for view in views
     )
 
 
-def _told_enum(view: EnumView, declared: ir.UserEnum | None) -> EnumView:
+def _comments_of_enum(view: EnumView, declared: ir.UserEnum | None) -> EnumView:
     """Return an enum with the comments of its declaration."""
     if declared is None:
         return view
@@ -208,7 +208,7 @@ def _told_enum(view: EnumView, declared: ir.UserEnum | None) -> EnumView:
     return replace(view, **about, members=members, is_long=bool(told))
 
 
-def _told_units(views: Sequence[UnitView], module: ir.Module) -> tuple[UnitView, ...]:
+def _comments_of_units(views: Sequence[UnitView], module: ir.Module) -> tuple[UnitView, ...]:
     """Return units with the comments of their declarations."""
     told = {identifier(each.name): each.comments for each in module.units}
     return tuple(

@@ -37,7 +37,7 @@ def format_module(text: str) -> str:
     except SyntaxError as error:
         raise InternalCompilerError(f"generated module is not valid Python: {error}") from error
     lines = text.split("\n")
-    parts = [part for each in _doubtful(tree.body, lines) for part in _parts(each, lines)]
+    parts = [part for each in _uncertain(tree.body, lines) for part in _parts(each, lines)]
     for part in reversed(parts):
         written = tuple(lines[part.first : part.last])
         in_style = _argument_in_style if part.is_argument else _in_style
@@ -102,7 +102,7 @@ def _beside(lines: Sequence[str], first: int, last: int) -> tuple[str, str]:
     return lines[first - 1] if first else "", lines[last] if last < len(lines) else ""
 
 
-def _doubtful(body: Iterable[ast.stmt], lines: list[str]) -> Iterator[ast.stmt]:
+def _uncertain(body: Iterable[ast.stmt], lines: list[str]) -> Iterator[ast.stmt]:
     """Yield the statements that black may write otherwise, the innermost ones."""
     for statement in body:
         inner: list[ast.stmt] = getattr(statement, "body", [])
@@ -114,7 +114,7 @@ def _doubtful(body: Iterable[ast.stmt], lines: list[str]) -> Iterator[ast.stmt]:
         elif any(map(_may_change, head, ("", *head), (*head[1:], ""))):
             yield statement
         else:
-            yield from _doubtful(inner, lines)
+            yield from _uncertain(inner, lines)
 
 
 def _first_line(statement: ast.stmt) -> int:

@@ -10,11 +10,7 @@ from osc2tx.backends.py_trees.call_support import CallCheck, domains_of
 from osc2tx.backends.py_trees.naming import identifier, module_name
 from osc2tx.backends.py_trees.object_support import ObjectCheck
 from osc2tx.backends.py_trees.own_names import declarations, has_module, is_own
-from osc2tx.backends.py_trees.runtime_api import (
-    ACTOR_CLASSES,
-    ANNOTATIONS,
-    STRUCT_CLASSES,
-)
+from osc2tx.backends.py_trees.runtime_api import ACTOR_CLASSES, ANNOTATIONS, STRUCT_CLASSES
 from osc2tx.catalogue import catalogue, object_tables
 from osc2tx.diagnostics import DiagnosticSink, Span
 from osc2tx.support.python_modules import is_taken

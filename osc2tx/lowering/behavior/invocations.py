@@ -297,7 +297,9 @@ class InvocationLowering:
                 continue
             is_time = parameter.name == "duration" and not isinstance(setting.domain, ir.Choices)
             # An invoked scenario draws for itself, unless a check here has to know the value.
-            draws_itself = is_scenario and self._constraints.says_all(setting, (node, parameter))
+            draws_itself = is_scenario and self._constraints.is_only_definition(
+                setting, (node, parameter)
+            )
             if setting.value is None and not draws_itself and not is_time:
                 value = self._drawn(node, parameter, setting)
             if value is None:

@@ -17,12 +17,7 @@ from typing import TypeAlias
 from osc2tx import ir
 from osc2tx.diagnostics import Label
 from osc2tx.lowering.behavior.durations import is_free, is_instant, is_open_ended
-from osc2tx.lowering.behavior.invoked_times import (
-    MOST_CHOICES,
-    InvokedTimes,
-    Lasting,
-    ScenarioOf,
-)
+from osc2tx.lowering.behavior.invoked_times import MOST_CHOICES, InvokedTimes, Lasting, ScenarioOf
 from osc2tx.lowering.behavior.time_equations import TimeEquations
 from osc2tx.lowering.behavior.time_expressions import (
     SLACK,

@@ -129,7 +129,7 @@ class ConstraintLowering:
             value, is_fixed = by_cases, True
         domain = None if is_fixed else self._domain(writer, within, hard)
         self._note(key, type_, definition, domain, hard if is_fixed else None)
-        said = [c for c in mentioned if self._is_said(c, key, definition, domain)]
+        said = [c for c in mentioned if self._is_stated(c, key, definition, domain)]
         self._used.update(c for c in said if c is definition or c is within)
         comments = dict.fromkeys(line for c in said for line in self._comments(c))
         return Setting(value, domain, is_fixed, tuple(comments), tuple(said))
@@ -162,8 +162,8 @@ class ConstraintLowering:
                 continue
             if any(c.subject == key and c.origin == "argument" for c in mentioned):
                 continue
-            says_itself = not is_of_library and any(c.subject == key for c in mentioned)
-            if (says_itself or (parameter is DURATION and not is_of_library)) and all(
+            states_itself = not is_of_library and any(c.subject == key for c in mentioned)
+            if (states_itself or (parameter is DURATION and not is_of_library)) and all(
                 c.place.prefix[:1] == (node,) for c in mentioned
             ):
                 continue
@@ -181,7 +181,7 @@ class ConstraintLowering:
                     found[parameter] = None
         yield from found
 
-    def says_all(self, setting: Setting, key: Key) -> bool:
+    def is_only_definition(self, setting: Setting, key: Key) -> bool:
         """Whether the written value of a parameter makes all constraints on it true."""
         return all(c in setting.constraints for c in self.found.by_key.get(key, ()))
 
@@ -358,7 +358,7 @@ class ConstraintLowering:
         root = definition.operations.root
         return values[root.operands[1]] if len(root.operands) > 1 else values[-1]
 
-    def _is_said(
+    def _is_stated(
         self,
         constraint: Constraint,
         key: Key,

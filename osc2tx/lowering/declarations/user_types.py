@@ -213,7 +213,7 @@ def _lower_type(
     return ir.UserType(
         name=symbol.name,
         span=symbol.span,
-        comments=(*comments, *_told_by(ctx, symbol)),
+        comments=(*comments, *_comment_lines(ctx, symbol)),
         bases=_bases(symbol),
         is_actor=isinstance(symbol, sym.ActorSymbol),
         fields=tuple(_lower_field(ctx, field) for field in user_fields(ctx, symbol)),
@@ -234,7 +234,7 @@ def _bases(symbol: TypeSymbol) -> tuple[str, ...]:
     return () if base is None else (base.name,)
 
 
-def _told_by(ctx: LoweringContext, symbol: TypeSymbol) -> Iterator[str]:
+def _comment_lines(ctx: LoweringContext, symbol: TypeSymbol) -> Iterator[str]:
     """Yield the comments of the extensions of a type."""
     for extended, node in _extensions(ctx):
         if extended is symbol:

@@ -190,10 +190,10 @@ class StandingModifiers:
     def _is_start(self, node: ast.ModifierApplication) -> bool:
         """Whether a modifier of the library is about the start alone."""
         callee = self._ctx.model.binding_of(node).callee
-        says_start = any(
+        states_start = any(
             a.name is not None and a.value.span.text == "start" for a in node.arguments
         )
-        return callee.origin != "user" and says_start
+        return callee.origin != "user" and states_start
 
     def _refuse(self, node: ast.ModifierApplication, call: ir.ModifierCall) -> None:
         self._ctx.unsupported(

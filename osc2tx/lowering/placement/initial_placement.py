@@ -18,7 +18,7 @@ from osc2tx.lowering.behavior.time_expressions import is_range
 from osc2tx.lowering.context import LoweringContext
 from osc2tx.lowering.placement.carla_paths import START
 from osc2tx.lowering.placement.implied_starts import FirstAction, implied_starts
-from osc2tx.lowering.values.shape_arguments import first_value, says_start
+from osc2tx.lowering.values.shape_arguments import first_value, states_start
 from osc2tx_shared.classes import dataclass, replace
 
 # Of these an actor has one at the start, of any origin.
@@ -203,7 +203,7 @@ def _places(modifier: ir.ModifierCall) -> bool:
     """Whether a modifier states the position or motion of an actor at an instant."""
     if modifier.name == "along":
         return any(argument.value.type.name in ROUTES for argument in modifier.arguments)
-    return can_place(modifier) and says_start(modifier)
+    return can_place(modifier) and states_start(modifier)
 
 
 def _subject(modifier: ir.ModifierCall) -> str:

@@ -49,7 +49,7 @@ def is_left_open(ctx: LoweringContext, method: sym.MethodSymbol, receiver: ast.E
     return not any(each.name.startswith("common_") for each in supertypes(symbol))
 
 
-def says_start(modifier: ir.ModifierCall) -> bool:
+def states_start(modifier: ir.ModifierCall) -> bool:
     """Whether a modifier of the whole phase states its value at the start."""
     if modifier.at == "start":
         return True

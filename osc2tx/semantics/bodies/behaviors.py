@@ -22,18 +22,12 @@ from osc2tx.semantics.declarations.resolve_types import (
 )
 from osc2tx.semantics.expressions.methods import resolve_call, type_itself
 from osc2tx.semantics.names.actions_on_structs import actions_on
-from osc2tx.semantics.names.everyday_words import OUTPUT
+from osc2tx.semantics.names.colloquial_names import OUTPUT
 from osc2tx.semantics.names.member_lookup import lookup_value
 from osc2tx.semantics.names.unknown_names import report_unimported
 from osc2tx.semantics.resolution import Environment, Resolution, declared_here
 from osc2tx.semantics.scope import CallableBehavior
-from osc2tx.semantics.symbols import (
-    ActionSymbol,
-    ActorSymbol,
-    EventSymbol,
-    LabelSymbol,
-    TypeSymbol,
-)
+from osc2tx.semantics.symbols import ActionSymbol, ActorSymbol, EventSymbol, LabelSymbol, TypeSymbol
 from osc2tx.semantics.types import ERROR, OBJECT, ActorType, BehaviorType, Type
 from osc2tx.syntax import ast
 

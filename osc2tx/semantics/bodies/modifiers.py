@@ -6,7 +6,7 @@ from osc2tx.semantics.bodies.binding import bind_behavior, type_arguments
 from osc2tx.semantics.builtins import OVERRIDE
 from osc2tx.semantics.declarations.resolve_types import choose
 from osc2tx.semantics.expressions.methods import call_by_statement
-from osc2tx.semantics.names.everyday_words import MODIFIERS, NO_MODIFIERS, plain_word
+from osc2tx.semantics.names.colloquial_names import MODIFIERS, NO_MODIFIERS, plain_word
 from osc2tx.semantics.names.other_dialects import advise
 from osc2tx.semantics.names.stray_modifiers import modifiers_of
 from osc2tx.semantics.names.unknown_names import report_unimported

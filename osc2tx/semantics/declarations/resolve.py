@@ -232,7 +232,7 @@ def _check_redefinition(r: Resolution, owner: TypeSymbol, member: Member) -> Non
         earlier = _overridden_elsewhere(r, owner, member)
     if earlier is None:
         if overrides:
-            _note_nothing_overridden(r, owner, member)
+            _warn_of_no_override(r, owner, member)
         return
     if isinstance(member, EventSymbol) and isinstance(earlier, EventSymbol):
         return
@@ -265,7 +265,7 @@ def _with_only(method: MethodSymbol) -> Help:
     return insert_before(node.body.span, "only ", help_)
 
 
-def _note_nothing_overridden(r: Resolution, owner: TypeSymbol, member: Member) -> None:
+def _warn_of_no_override(r: Resolution, owner: TypeSymbol, member: Member) -> None:
     """Warn about an `only` that overrides nothing, where a method has nearly that name.
 
     The standard allows it (§7.3.7.2), so a text may use it for all its methods.

@@ -16,7 +16,7 @@ from osc2tx.semantics.names.aliases import (
     type_alias,
     write_instead,
 )
-from osc2tx.semantics.names.everyday_words import BEHAVIORS, NO_BEHAVIORS, TYPES, plain_word
+from osc2tx.semantics.names.colloquial_names import BEHAVIORS, NO_BEHAVIORS, TYPES, plain_word
 from osc2tx.semantics.names.other_dialects import advise
 from osc2tx.semantics.names.unknown_names import report_unimported
 from osc2tx.semantics.resolution import Resolution, declared_here

@@ -11,7 +11,7 @@ from osc2tx.semantics.declarations.resolve_types import resolve_type
 from osc2tx.semantics.dialects import PRELUDE_MEMBERS
 from osc2tx.semantics.expressions.names import value_type
 from osc2tx.semantics.names.aliases import member_alias, standard_member, write_instead
-from osc2tx.semantics.names.everyday_words import MEMBERS, plain_word
+from osc2tx.semantics.names.colloquial_names import MEMBERS, plain_word
 from osc2tx.semantics.names.member_lookup import find_member, member_names
 from osc2tx.semantics.resolution import Environment, Resolution, declared_here
 from osc2tx.semantics.scope import supertypes

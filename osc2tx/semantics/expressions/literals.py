@@ -8,7 +8,7 @@ from osc2tx.semantics.conversions import common_type, is_numeric
 from osc2tx.semantics.declarations.redeclarations import report_disputed
 from osc2tx.semantics.dialects import UNIT_ALIASES
 from osc2tx.semantics.names.aliases import unit_alias, write_instead
-from osc2tx.semantics.names.everyday_words import UNITS, plain_word
+from osc2tx.semantics.names.colloquial_names import UNITS, plain_word
 from osc2tx.semantics.names.unknown_names import report_unimported
 from osc2tx.semantics.resolution import Environment, Resolution
 from osc2tx.semantics.symbols import UnitSymbol

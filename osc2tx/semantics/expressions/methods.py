@@ -19,7 +19,7 @@ from osc2tx.semantics.declarations.resolve_types import type_of_symbol
 from osc2tx.semantics.expressions.access import note_prelude_member, report_unknown_member
 from osc2tx.semantics.expressions.type_receivers import implied_object
 from osc2tx.semantics.model import Binding
-from osc2tx.semantics.names.everyday_words import CONDITIONS, LIST_WORDS, MEMBERS, plain_word
+from osc2tx.semantics.names.colloquial_names import CONDITIONS, LIST_WORDS, MEMBERS, plain_word
 from osc2tx.semantics.names.member_lookup import find_member, lookup_value, visible_names
 from osc2tx.semantics.names.unknown_names import in_newest_version
 from osc2tx.semantics.resolution import Environment, Resolution, declared_here

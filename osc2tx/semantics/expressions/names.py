@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from osc2tx.diagnostics.fixes import Help, write, write_one_of
 from osc2tx.diagnostics.suggestions import name_meant, nearest, one_of
-from osc2tx.semantics.conversions import converts, stand_in, symbol_of, type_of_owner
+from osc2tx.semantics.conversions import convertible_type, converts, symbol_of, type_of_owner
 from osc2tx.semantics.declarations.resolve_types import choose, resolve_type_name
 from osc2tx.semantics.dialects import ENUM_MEMBER_ALIASES
 from osc2tx.semantics.expressions.type_receivers import type_as_receiver
 from osc2tx.semantics.names.actors_by_name import actor_of_caller
 from osc2tx.semantics.names.aliases import enum_member_alias, write_instead
-from osc2tx.semantics.names.everyday_words import ENUM_MEMBERS, NAMES, NOTHING, plain_word
+from osc2tx.semantics.names.colloquial_names import ENUM_MEMBERS, NAMES, NOTHING, plain_word
 from osc2tx.semantics.names.member_lookup import find_member, lookup_value, visible_names
 from osc2tx.semantics.names.unknown_names import in_newest_version
 from osc2tx.semantics.resolution import Environment, Resolution, declared_here
@@ -71,7 +71,7 @@ def enum_member_of(name: ast.Name, expected: Type | None) -> EnumMemberSymbol | 
     """Return the member of that name of the expected enum type."""
     if isinstance(expected, ListType | RangeType):
         expected = expected.element
-    expected = expected and (stand_in(expected) or expected)
+    expected = expected and (convertible_type(expected) or expected)
     if isinstance(expected, EnumType):
         return expected.symbol.members.get(name.text)
     return None

@@ -4,13 +4,8 @@ from __future__ import annotations
 
 from osc2tx.diagnostics.fixes import write
 from osc2tx.semantics.assignability import check_condition, check_fits
-from osc2tx.semantics.conversions import (
-    are_related,
-    common_type,
-    dimension_of,
-    is_numeric,
-)
-from osc2tx.semantics.names.everyday_words import QUOTIENTS
+from osc2tx.semantics.conversions import are_related, common_type, dimension_of, is_numeric
+from osc2tx.semantics.names.colloquial_names import QUOTIENTS
 from osc2tx.semantics.names.member_lookup import lookup_value
 from osc2tx.semantics.resolution import Environment, Resolution
 from osc2tx.semantics.types import (

@@ -43,7 +43,7 @@ def actor_of_caller(r: Resolution, name: ast.Name, env: Environment) -> FieldSym
     return _adopt(r, scenario, declared[0], name)
 
 
-def hand_over_actors(r: Resolution) -> None:
+def pass_actors(r: Resolution) -> None:
     """Bind actors that invocations omit to the caller's actors of the same names."""
     if "OSC628" not in r.relaxations.dialect.relaxed:
         return
@@ -58,12 +58,12 @@ def hand_over_actors(r: Resolution) -> None:
             given = {parameter for parameter, _ in binding.arguments}
             for field in binding.callee.members.values():
                 if isinstance(field, FieldSymbol) and _is_actor(field) and field not in given:
-                    _hand_over(r, caller, node, field)
+                    _pass_actor(r, caller, node, field)
         if len(r.adopted) > adopted:
             pending += scenarios  # those that invoke it hand it over, too
 
 
-def _hand_over(
+def _pass_actor(
     r: Resolution, caller: ScenarioSymbol, node: ast.Invocation, field: FieldSymbol
 ) -> None:
     own = caller.members.get(field.name)

@@ -8,7 +8,7 @@ from osc2tx.diagnostics.fixes import Help, Remedy, write
 from osc2tx.diagnostics.suggestions import name_meant, one_of
 from osc2tx.semantics.dialects import LEFT_OUT, PRELUDE_PARAMETERS, PreludeHint
 from osc2tx.semantics.names.aliases import standard_parameter, write_instead
-from osc2tx.semantics.names.everyday_words import fitting_word
+from osc2tx.semantics.names.colloquial_names import fitting_word
 from osc2tx.semantics.names.stray_modifiers import move_out
 from osc2tx.semantics.resolution import Resolution, declared_here
 from osc2tx.semantics.scope import is_subtype, supertypes

@@ -40,7 +40,7 @@ scenario logical:
             speed({speed})
         {then}
 """
-SAID_BESIDE = ("FileHeader", "ParameterDeclarations")
+WITHOUT_EFFECT = ("FileHeader", "ParameterDeclarations")
 Run = dict[str, str]
 
 
@@ -113,7 +113,7 @@ def assert_same(a: etree._Element, b: etree._Element) -> None:
     for key, text in a.attrib.items():
         if text != b.get(key):
             assert math.isclose(float(text), float(b.get(key)), rel_tol=1e-6, abs_tol=2e-6), key
-    left, right = ([c for c in node if c.tag not in SAID_BESIDE] for node in (a, b))
+    left, right = ([c for c in node if c.tag not in WITHOUT_EFFECT] for node in (a, b))
     assert len(left) == len(right)
     for x, y in zip(left, right, strict=True):
         assert_same(x, y)
