@@ -39,7 +39,7 @@ SECTION = re.compile(r"# §([\d.]+)")
 
 
 class CatalogueError(Exception):
-    """The three sources disagree; the message says where, one line each."""
+    """The three sources disagree; the message lists them, one line each."""
 
 
 @dataclass

@@ -123,7 +123,7 @@ def _table(rows: Sequence[Sequence[str]]) -> str:
 
 
 def main() -> int:
-    """Write the page, or say whether it is stale."""
+    """Write the page, or report whether it is stale."""
     page = render()
     if "--check" in sys.argv[1:]:
         return int(not PAGE.is_file() or PAGE.read_text(encoding="utf-8") != page)

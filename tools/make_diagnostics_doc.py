@@ -41,7 +41,7 @@ the entry of a code.
 
 In the last four, summary and verdict go to stderr. Columns count characters, in SARIF UTF-16
 units, in `rdjson` bytes of UTF-8. Paths are relative to the folder in which osc2tx was started. If
-osc2tx cannot begin (wrong usage, no such file), the document says so: `failure` in JSON, a
+osc2tx cannot begin (wrong usage, no such file), the document states it: `failure` in JSON, a
 notification in SARIF, an error without place on GitHub and in `rdjson`.
 
 `--strict` turns exit code 0 into 1 if there are warnings, and `run` then does not start.
@@ -111,7 +111,7 @@ def _cell(text: str) -> str:
 
 
 def main() -> int:
-    """Write the page, or say whether it is stale."""
+    """Write the page, or report whether it is stale."""
     page = render()
     if "--check" in sys.argv[1:]:
         return int(not PAGE.is_file() or PAGE.read_text(encoding="utf-8") != page)

@@ -125,7 +125,7 @@ class _Layout:
         return chosen.union(needed)
 
     def _fits(self, first: int, last: int, width: int, after: int, exploded: set[int]) -> bool:
-        """Whether what stands outside of the exploded brackets fits on its lines."""
+        """Whether the text outside of the exploded brackets fits on its lines."""
         column, index = len(self._current), first
         while index < last:
             column += len(self._pieces[index].text) + (

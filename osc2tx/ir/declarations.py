@@ -164,7 +164,7 @@ class Event(DeclarationBase):
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class External:
-    """A function of the user's own Python code."""
+    """A function of Python code of the user."""
 
     module: str
     function: str

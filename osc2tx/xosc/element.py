@@ -84,7 +84,7 @@ class Element:
         An underscore at the end of a name is dropped: `from_` is the attribute `from`.
 
         Raises:
-            Unwritable: A text cannot stand in a document.
+            Unwritable: A string cannot be written to a document.
         """
         texts = []
         notes: dict[str, None] = {}
@@ -159,7 +159,7 @@ class Element:
             return child
         raise Unresolved(f"<{self.tag}> is empty", self.place)
 
-    # --- what stands below it ---------------------------------------------------------------------
+    # --- children -----------------------------------------------------------------------------
 
     def all(self, kind: type[E]) -> Iterator[E]:
         """Yield the children of a kind."""

@@ -188,7 +188,7 @@ class Symbol(float):
         return self if float(self) >= 0.0 else -self
 
     def __round__(self, digits: int | None = None) -> float:  # type: ignore[override]
-        """Stay as it is: a tool computes it, and rounds it as it likes."""
+        """Stay unchanged: a tool computes it, and rounds it in its own way."""
         return round(float(self)) if digits is None else self
 
 

@@ -1,7 +1,7 @@
 """Domains: the values that a parameter or expression can still have.
 
 Numbers are intervals in SI, with Python integers for `int` and `uint`, floats for the rest. Bools,
-enums and strings are finite sets or their complements. An interval says for each bound whether
+enums and strings are finite sets or their complements. An interval states for each bound whether
 it is excluded, and whether NaN is in the set: comparisons drop it, their negations do not.
 """
 

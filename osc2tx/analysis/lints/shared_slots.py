@@ -74,7 +74,7 @@ def _report(starts: Iterable[Iterable[_Claim]], sink: DiagnosticSink) -> None:
                 claim.node.behavior.span,
                 f"two members of `parallel` control the {claim.slot} motion of"
                 f" {who} from the same instant on: every run ends there",
-                labels=[Label(former.node.behavior.span, "the other one")],
+                labels=[Label(former.node.behavior.span, "the other member")],
                 help=APART,
             )
 

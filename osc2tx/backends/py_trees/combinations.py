@@ -86,7 +86,7 @@ class CombinationCheck:
                     "OSC508",
                     last.span,
                     f"`{first.name}` and `{last.name}` constrain the same motion",
-                    labels=[Label(first.span, "the other one")],
+                    labels=[Label(first.span, "the other modifier")],
                     help="give one of them",
                 )
             case "twice":

@@ -86,7 +86,7 @@ def _end_line(span: Span) -> int:
 def _snippet(span: Span, gutter: int) -> list[tuple[bool, str]]:
     """Return the first and the last line of a span, each with marks below it.
 
-    The flag of each row says whether it holds marks.
+    The flag of each row states whether it holds marks.
     """
     source = span.source
     first, column = source.position(span.start)

@@ -29,7 +29,7 @@ def is_user_defined(action: sym.ActionSymbol) -> bool:
 def lower_actions(
     ctx: LoweringContext, actions: Iterable[sym.ActionSymbol]
 ) -> tuple[ir.UserAction, ...]:
-    """Return the declarations of the user's own actions among those that are invoked."""
+    """Return the declarations of the invoked user-defined actions."""
     return tuple(
         _lower_action(ctx, action) for action in dict.fromkeys(actions) if is_user_defined(action)
     )

@@ -183,7 +183,7 @@ def _report_undefined(ctx: LoweringContext, node: CallNode, callee: sym.MethodSy
 def _in_order(
     ctx: LoweringContext, callee: sym.MethodSymbol, given: tuple[ir.Argument, ...]
 ) -> tuple[ir.Argument, ...]:
-    """Return all arguments by position: code of the user may name its parameters as it likes."""
+    """Return all arguments by position: code of the user may name its parameters freely."""
     by_name = {argument.parameter: argument for argument in given}
     ordered = []
     for parameter in callee.parameters:

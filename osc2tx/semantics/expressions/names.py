@@ -105,7 +105,7 @@ def value_type(r: Resolution, symbol: Symbol, node: ast.Expression) -> Type:
             )
             return ERROR
         case _:
-            r.report("OSC316", node.span, f"`{symbol.name}` does not stand for a value")
+            r.report("OSC316", node.span, f"`{symbol.name}` does not denote a value")
             return ERROR
 
 

@@ -137,9 +137,9 @@ def _check_plus(b: Builder, children: list[Tree], position: int) -> None:
     text = b.text_of(after) if isinstance(after, int) else ""
     span = b.span(children[position], children[position])
     if kind not in _NUMBERS and text not in ("inf", "nan"):
-        b.report("OSC100", span, "a sign `+` stands before a number only")
+        b.report("OSC100", span, "a sign `+` precedes only a number")
     elif kind == t.INTEGER or (kind == t.PHYSICAL and is_integer(split_physical(text)[0])):
-        message = "a sign `+` stands before numbers with a point or an exponent only"
+        message = "a sign `+` precedes only numbers with a point or an exponent"
         b.report("OSC100", span, message, leave_out(span, f"write `{text}`"))
 
 

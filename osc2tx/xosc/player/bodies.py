@@ -57,7 +57,7 @@ class Body:
             from the coupler to the own reference point.
         cursor: Moves it along its lane; made with the first step.
         located: For what pose, place and direction of its lane it was looked up last, and where
-            it is then. Several conditions of a step ask for that.
+            it is then. Several conditions of a step read it.
     """
 
     name: str
