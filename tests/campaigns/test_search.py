@@ -165,7 +165,7 @@ def test_a_search_that_finds_no_value_says_so(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        (["--search", "min_gap", "--sampler", "sobol"], "a search chooses the rows"),
+        (["--search", "min_gap", "--sampler", "sobol"], "a search selects the rows"),
         (["--search", "collision_speed"], "--search min:collision_speed, or max:collision_speed"),
         (["--search", "min_ttc", "--kpi", "min_gap"], "no --kpi"),
         (["--search", "max:min_gap(ego,nobody)", "--kpi", "min_gap"], "they have min_gap, min_gap"),

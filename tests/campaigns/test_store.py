@@ -78,9 +78,9 @@ def test_other_files_are_refused(tmp_path: Path) -> None:
     base.commit()
     base.close()
     for name in ("text", "base"):
-        with pytest.raises(CampaignError, match="no store of a campaign"):
+        with pytest.raises(CampaignError, match="not a store of a campaign"):
             Store(tmp_path / name, is_new=True)
-    with pytest.raises(CampaignError, match="no such store"):
+    with pytest.raises(CampaignError, match="the store does not exist"):
         Store(tmp_path / "nowhere")
 
 

@@ -83,7 +83,7 @@ ROWS = [
     Row("modifier_as_a_member", 3.0),
     failed("all_the_time_but_never", "23 OSC810", "`position` does not hold from 1.00 to 3.00 s"),
     failed("distance_cut_by_until", "18 OSC810", "it has covered is 20.00, not 60.00 m"),
-    Row("type_as_receiver", 3.0, found=("4 OSC415", "9 OSC415"), says="the one there is"),
+    Row("type_as_receiver", 3.0, found=("4 OSC415", "9 OSC415"), says="the only one"),
     Row("dut_as_receiver_carla", 2.0, found=("9 OSC622",), options=("--dialect", "carla")),
     refused("action_without_actor", "7 OSC804", "no global action `log`", code=5),
     refused("struct_member_keep", "12 OSC804", "no action `spawn`", code=5),
@@ -93,7 +93,7 @@ ROWS = [
     Row("numeric_equation", 0.0),
     Row("difference_of_dates", 2.0),
     Row("literals", 0.0),
-    refused("plus_is_for_floats", "4 OSC100", "with a point or an exponent only"),
+    refused("plus_is_for_floats", "4 OSC100", "numbers with a point or an exponent"),
     refused("unexported_enum", "11 OSC215", "`crimson` is not visible here"),
     refused(
         "silent_other_carriageway", "13 OSC802", "npc overlaps ego by 3.60 m 201 m from", code=5

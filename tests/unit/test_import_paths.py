@@ -108,14 +108,14 @@ def test_links_out_of_the_folders_are_refused(tmp_path: Path, link: str) -> None
     place.parent.mkdir(parents=True)
     place.symlink_to(secret if place.suffix else secret.parent)
     ((code, message, _),) = reports(compiled(main(tmp_path), tmp_path / "lib"))
-    assert (code, "lies outside" in message) == ("OSC205", True)
+    assert (code, "is outside" in message) == ("OSC205", True)
 
 
 def test_a_library_reaches_nothing_outside(tmp_path: Path) -> None:
     write(tmp_path / "secret.osc", "enum secret: [a]\n")
     write(tmp_path / "lib/company/colors.osc", 'import "../../secret.osc"\n')
     ((code, message, _),) = reports(compiled(main(tmp_path), tmp_path / "lib"))
-    assert (code, "lies outside" in message) == ("OSC205", True)
+    assert (code, "is outside" in message) == ("OSC205", True)
 
 
 def test_the_folder_itself_may_be_a_link(tmp_path: Path) -> None:

@@ -109,7 +109,7 @@ def test_sarif_links_only_to_addresses(shell: Shell) -> None:
     for address in ("javascript:alert(1)", "https://a\nb", "docs"):
         ended = shell(*sarif, address)
         assert ended.code == 2
-        assert "no address" in ended.err
+        assert "not an address" in ended.err
 
 
 ON_A_MAP = """\

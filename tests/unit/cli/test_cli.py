@@ -47,7 +47,7 @@ def test_a_bug_has_its_own_exit_code(
     with pytest.raises(SystemExit) as caught:
         cli.main([])
     assert caught.value.code == 70
-    assert "this is a bug of osc2tx" in capsys.readouterr().err
+    assert "internal error" in capsys.readouterr().err
 
 
 def test_check_loads_nothing_heavy(tmp_path: Path) -> None:

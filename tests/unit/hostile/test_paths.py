@@ -150,7 +150,7 @@ def test_a_module_hides_no_other(tmp_path: Path, stem: str) -> None:
     drive(tmp_path / f"in/{stem}.osc")
     result = made(tmp_path)
     (report,) = [report for each in result.results for report in each.reports]
-    assert (report.code, f"the module is called `{stem}_`" in report.message) == ("OSC517", True)
+    assert (report.code, f"the module has the name `{stem}_`" in report.message) == ("OSC517", True)
     assert listing(tmp_path / "out") == [f"{stem}_.map.json", f"{stem}_.py"]
 
 
