@@ -165,7 +165,7 @@ def test_a_full_disk_keeps_what_was_stored(tmp_path: Path) -> None:
     run(plan, tmp_path / "store", "random", 3, Here())
     with Store(tmp_path / "store") as store:
         store._base._base.execute("pragma max_page_count = 1")
-        with pytest.raises(CampaignError, match=r"store: .*full; the rows .* before are kept"):
+        with pytest.raises(CampaignError, match=r"store: .*full; rows .* before are kept"):
             for number in range(500):
                 (found,) = next(Here().run(plan, iter([row(number + 10)])))
                 store.add([found])
@@ -187,7 +187,7 @@ def test_a_locked_store_is_told(place: Path, monkeypatch: pytest.MonkeyPatch) ->
     )
     other = connect(place, isolation_level=None)
     other.execute("begin exclusive")
-    with pytest.raises(CampaignError, match="database is locked; the rows"):
+    with pytest.raises(CampaignError, match="database is locked; rows"):
         use_all(place)
     other.execute("rollback")
     other.close()
@@ -208,7 +208,7 @@ def test_a_store_in_a_folder_that_cannot_be_written(
         assert store.done() == {0, 1, 2, 3}
         assert sorted(each.name for each in place.parent.iterdir()) == names
     for name in ("store", "other"):
-        with pytest.raises(CampaignError, match=f"{name}: its folder cannot be written"):
+        with pytest.raises(CampaignError, match=f"{name}: its folder is read-only"):
             Store(place.with_name(name), is_new=True)
     assert sorted(each.name for each in place.parent.iterdir()) == names
 

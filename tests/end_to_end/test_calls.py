@@ -1,4 +1,4 @@
-"""Calls of methods: of the scenario, of types, and of the user's own Python code."""
+"""Calls of methods: of the scenario, of types, and defined by the user Python code."""
 
 import importlib
 import sys

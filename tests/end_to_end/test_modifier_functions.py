@@ -1,4 +1,4 @@
-"""Modifiers of the user's own are functions of the module, and imported like classes."""
+"""Modifiers defined by the user are functions of the module, and imported like classes."""
 
 from __future__ import annotations
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import subprocess
 import tomllib
+from collections import ChainMap
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -24,8 +25,16 @@ FOLDERS = (
 SUFFIXES = {".py", ".md", ".osc", ".toml", ".j2", ".g4", ".yml"}
 GLOSSARY = REPOSITORY / "docs" / "glossary.md"  # names what not to write
 RULES = tomllib.loads(Path(__file__).with_name("prose.toml").read_text(encoding="utf-8"))
-# Lines are joined: a phrase may go over the end of one, with the sign of a comment behind it.
-PHRASES = {re.compile(rf"\b{p}".replace(" ", r"\s+(?:#\s+)?"), re.I): RULES[p] for p in RULES}
+SCOPED = RULES.pop("scoped")
+
+
+def compiled(rules: dict[str, str]) -> dict[re.Pattern[str], str]:
+    """Return rules by pattern; a phrase may continue in the next line, also of a comment."""
+    return {re.compile(rf"\b{p}".replace(" ", r"\s+(?:#\s+)?"), re.I): rules[p] for p in rules}
+
+
+PHRASES = compiled(RULES)
+OF_FOLDERS = [(tuple(each["folders"]), compiled(each["phrases"])) for each in SCOPED]
 
 
 def files() -> Iterator[Path]:
@@ -52,9 +61,18 @@ def files() -> Iterator[Path]:
             yield path
 
 
-def findings(text: str) -> Iterator[tuple[int, str, str]]:
+def phrases_for(path: Path) -> dict[re.Pattern[str], str]:
+    """Return the rules for a file."""
+    name = path.relative_to(REPOSITORY)
+    scoped = [rules for folders, rules in OF_FOLDERS if any(map(name.is_relative_to, folders))]
+    return dict(ChainMap(PHRASES, *scoped))
+
+
+def findings(
+    text: str, phrases: dict[re.Pattern[str], str] = PHRASES
+) -> Iterator[tuple[int, str, str]]:
     """Yield line, phrase and replacement of each phrase in a text."""
-    for phrase, instead in PHRASES.items():
+    for phrase, instead in phrases.items():
         for found in phrase.finditer(text):
             yield text.count("\n", 0, found.start()) + 1, " ".join(found[0].split()), instead
 
@@ -63,7 +81,7 @@ def test_terms_of_the_field() -> None:
     found = [
         f"{path.relative_to(REPOSITORY)}:{line}: `{phrase}`: write {instead}"
         for path in files()
-        for line, phrase, instead in findings(path.read_text(encoding="utf-8"))
+        for line, phrase, instead in findings(path.read_text(encoding="utf-8"), phrases_for(path))
     ]
     assert not found, "\n".join(found)
 

@@ -185,7 +185,7 @@ class BehaviorTreeBuilder:
         return CallView(action, arguments)
 
     def _not_by_default(self, node: ir.Invoke) -> tuple[ir.Argument, ...]:
-        """Return the arguments that are not the defaults of an action of the user's own."""
+        """Return the arguments that are not the defaults of a user-defined action."""
         declared = self._actions[node.qualified_name].parameters
         defaults = {p.name: p.default for p in declared if p.default is not None}
         return tuple(

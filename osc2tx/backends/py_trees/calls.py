@@ -26,7 +26,7 @@ class CallWriter:
         expressions: Writer of the scenario's expressions.
         use_name: Called with each name needed from the runtime library.
         use_modifier: Called with each modifier function needed.
-        functions: Modifiers of the user's own that the module has as functions.
+        functions: User-defined modifiers that the module has as functions.
     """
 
     def __init__(

@@ -1,4 +1,4 @@
-"""Which applications of modifiers of the user's own are calls of their functions."""
+"""Which applications of modifiers defined by the user are calls of their functions."""
 
 from __future__ import annotations
 

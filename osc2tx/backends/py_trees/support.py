@@ -205,7 +205,7 @@ class _SupportCheck:
                 event.span,
                 f"the events of `{event.label}` are there only once it has started, as an argument"
                 " of it depends on the state of the world",
-                help=f"wait for `@{event.label}.end`, or hand in the actor and read its state",
+                help=f"wait for `@{event.label}.end`, or pass the actor and read its state",
             )
         match trigger.condition:
             case ir.Every():

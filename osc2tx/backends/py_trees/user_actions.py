@@ -1,4 +1,4 @@
-"""Actions of the user's own, as typed functions of the module.
+"""User-defined actions, as typed functions of the module.
 
 The declaration in the scenario gives a function its signature, so that a misspelt argument is an
 error of types; the class that carries the action out is found by name when the module runs.
@@ -34,7 +34,7 @@ def is_function(node: ir.Invoke) -> bool:
 
 
 def has_function(action: str) -> bool:
-    """Return whether a module needs a function for an action of the user's own."""
+    """Return whether a module needs a function for a user-defined action."""
     return action not in catalogue().actions
 
 

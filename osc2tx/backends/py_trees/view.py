@@ -224,7 +224,7 @@ class UserActionView:
 
 @dataclass(frozen=True, slots=True)
 class UserModifierView:
-    """A modifier of the user's own, as a function.
+    """A user-defined modifier, as a function.
 
     Attributes:
         name: Its name.
@@ -300,8 +300,8 @@ class ModuleView:
         enums: Enums it defines.
         standard_imports: Its imports from Python's standard library.
         types: Classes for the types of its objects.
-        actions: Actions of the user's own.
-        modifiers: Modifiers of the user's own.
+        actions: User-defined actions.
+        modifiers: User-defined modifiers.
         scenarios: Its classes.
         mains: The classes that it can run as a script.
         shown: The class whose tree viewers get, if there is any.

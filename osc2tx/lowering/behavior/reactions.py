@@ -156,7 +156,7 @@ class Attached:
     def add(self, ctx: LoweringContext, statements: Sequence[ast.Statement]) -> None:
         """Attach the `on` directives of a body, and its events at a boundary.
 
-        Variables are sampled for as long as a scenario runs.
+        Variables are sampled while a scenario runs.
         """
         for node in () if self.is_whole else statements:
             if isinstance(node, ast.VariableDeclaration) and isinstance(

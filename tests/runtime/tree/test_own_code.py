@@ -1,4 +1,4 @@
-"""Code of the user's own ends no run as if all was well: it is named, with its line; exit 5."""
+"""Code defined by the user ends no run as if all was well: it is named, with its line; exit 5."""
 
 from __future__ import annotations
 
