@@ -82,7 +82,7 @@ def test_by_default_there_is_xml_where_it_is_exact(shell: Shell) -> None:
     ended = shell("build", "in", "-o", "out")
     assert (ended.code, ended.err) == (0, "")
     assert ended.out.splitlines() == [
-        "XML for 1 of 2 scenarios; the reports say why",
+        "XML for 1 of 2 scenarios; the reports state the reasons",
         "2 modules in out: 6 files written; 0 errors, 0 warnings",
     ]
     assert [name for name in made(shell) if ".xosc" in name] == [
