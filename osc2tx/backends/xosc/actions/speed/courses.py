@@ -155,17 +155,18 @@ def follow_course(
     Its points are `count`; an acceleration (m/s^2) stays after it. The even change stands for it
     where need be; that it differs on the way is told of a modifier, or of the action.
     """
-    if even is not None and not leaf.ctx.can(PROFILE_ACTION, "1.2"):
+    can_draw = leaf.ctx.can(PROFILE_ACTION, "1.2")
+    if even is not None and not can_draw:
         reason = "a speed that changes unevenly needs SpeedProfileAction; it changes evenly instead"
         note_even(leaf, told or leaf.arguments, [(course, even)], reason, where, course.duration)
-        course = even
+    world, course = course, course if even is None or can_draw else even
     is_line = isinstance(course, Linear)
     pieces = 1 if is_line else SAMPLES
     speeds = [course.value(course.duration * index / pieces) for index in range(pieces + 1)]
     end = speeds[-1]
     after = replace(leaf.state.finished(LONGITUDINAL), speed=known(end), rate=rate)
     during = replace(after, speed=Interval(min(speeds), max(speeds)))
-    leaf.course = course
+    leaf.course = course if leaf.uneven is None else world  # which steps may follow
     if is_line:
         action = speed_action(end, "linear", "time", course.duration)
     else:
