@@ -71,12 +71,12 @@ def pytest_sessionfinish(session: pytest.Session) -> None:
 
 
 def is_worker(config: pytest.Config) -> bool:
-    """Whether this is a process of pytest-xdist, which runs what another one chooses."""
+    """Whether this is a worker of pytest-xdist, whose tests another process selects."""
     return hasattr(config, "workerinput")
 
 
-def say_unknown_names(config: pytest.Config, known: Collection[str]) -> None:
-    """Say which conditions nothing can meet, as no scenario fixes a value of their name."""
+def report_unknown_names(config: pytest.Config, known: Collection[str]) -> None:
+    """Report the conditions that no scenario fulfils, as none fixes a value of their name."""
     for condition in _conditions(config) if known else ():
         if condition.name not in known:
             meant = did_you_mean(condition.name, known)

@@ -16,7 +16,7 @@ import pytest
 from osc2tx.compilation.inputs import InputError
 from osc2tx.config import ConfigError
 from osc2tx.testing.result_properties import EXPECTED, REASON, TRACE, VERDICT, VIOLATION
-from osc2tx.testing.scenario_selection import is_worker, say_unknown_names
+from osc2tx.testing.scenario_selection import is_worker, report_unknown_names
 
 if TYPE_CHECKING:
     from osc2tx.diagnostics.report import ScenarioEntry
@@ -75,7 +75,7 @@ def pytest_sessionstart(session: pytest.Session) -> None:
             sources.prepare((place for place in places if place.exists()), workers, progress)
     except (ConfigError, InputError) as error:
         raise pytest.UsageError(str(error)) from None
-    say_unknown_names(config, {name for values in sources.values() for name in values})
+    report_unknown_names(config, {name for values in sources.values() for name in values})
 
 
 def pytest_unconfigure(config: pytest.Config) -> None:

@@ -275,6 +275,6 @@ def test_alternatives_that_start_apart_are_refused(shell: Shell) -> None:
     for command in ("check", "run"):
         said = shell(command, "top.osc")
         assert said.code == 3
-        assert "error[OSC508]: `ego` starts elsewhere in another alternative" in said.err
+        assert "error[OSC508]: `ego` has another start in another alternative" in said.err
     shell.write("top.osc", HEAD + TOP + both(EGO, EGO, how="one_of(duration: 2s)"))
     assert shell("run", "top.osc").code == 0
