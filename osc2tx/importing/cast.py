@@ -228,10 +228,13 @@ class Cast:
         if path not in self._libraries:
             self._libraries[path] = self._library(path)
         library = self._libraries[path]
-        if entry_name not in library.entries:
-            self._add_type(library, self._ledger.track(entry, path.name))
+        vehicle = self._ledger.track(entry, path.name)
+        self._note_trailers(vehicle, name)
+        if entry_name in library.entries:
+            vehicle.use_all()  # the document that made the type has reported on it
+        else:
+            self._add_type(library, vehicle)
         self.imports.add(library.name)
-        self._note_trailers(self._ledger.track(entry, path.name), name)
         return library.entries[entry_name]
 
     def _note_trailers(self, vehicle: Node, name: str) -> None:

@@ -135,6 +135,17 @@ def test_all_of_a_document_with_catalogs_counts(name: str, tmp_path: Path) -> No
     assert not silent(root if catalog is None else catalog, product)
 
 
+def test_an_entry_of_a_catalog_is_reported_once(tmp_path: Path) -> None:
+    _files(tmp_path)
+    main = tmp_path / "main.xosc"
+    libraries: Libraries = {}
+    first, second = (
+        import_document(main.read_bytes(), "main.xosc", libraries, path=main) for _ in range(2)
+    )
+    assert first.text == second.text
+    assert first.report.grade == "exact" == second.report.grade, second.report.findings
+
+
 DISTRIBUTIONS = """<OpenSCENARIO><FileHeader revMajor="1" revMinor="3" date="2024-01-01T00:00:00"
   description="" author=""/><ParameterValueDistribution><ScenarioFile filepath="two_cars.xosc"/>
   {}</ParameterValueDistribution></OpenSCENARIO>"""
