@@ -166,15 +166,7 @@ class _Import:
         )
         storyboard = self._root.one("Storyboard")
         inits = Starts(storyboard, self._values, places, actions, self._cast)
-        reader = BoardReader(
-            self._document,
-            self._values,
-            self._ledger,
-            self._names,
-            actions,
-            conditions,
-            self._comments_of,
-        )
+        reader = BoardReader(self._values, self._names, actions, conditions, self._comments_of)
         board = reader.read(storyboard)
         structure = Structure(
             board,

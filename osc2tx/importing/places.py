@@ -143,7 +143,9 @@ class Places(Ground):
             return Spot(text, yaw=_yaw(self._turn(node, 0.0, 0.0)))
         found = self.static_of(node)
         h = found[1] if found is not None and found[1] is not None else node_pose.h
-        node.find("Orientation") and node.find("Orientation").use_all()  # type: ignore[union-attr]
+        orientation = node.find("Orientation")
+        if orientation is not None:
+            orientation.use_all()
         return Spot(text, yaw=heading_of(h))
 
     def _known(self, position: Node, name: str) -> Spot | None:

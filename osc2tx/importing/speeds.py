@@ -48,8 +48,8 @@ class Speeds(Reader):
                 return
         if statement is None:
             return
-        in_order = at_start and statement.text == "serial" and statement.members
-        for each in in_order or [statement]:
+        members = statement.members if at_start else None  # `Init` has no compositions
+        for each in members or [statement]:
             yield Effect(each, actor.name, slots)
 
     def _speed(self, node: Node, said: str, actor: Actor, at_start: bool) -> Statement | None:

@@ -7,8 +7,7 @@ from dataclasses import field
 
 from osc2tx.importing.actions import Actions
 from osc2tx.importing.conditions import Conditions, Trigger
-from osc2tx.importing.cursor import Ledger, Node
-from osc2tx.importing.document import Document
+from osc2tx.importing.cursor import Node
 from osc2tx.importing.effects import Effect
 from osc2tx.importing.names import Names, short
 from osc2tx.importing.program import Statement, composed
@@ -139,16 +138,14 @@ class BoardReader:
 
     def __init__(
         self,
-        document: Document,
         values: Values,
-        ledger: Ledger,
         names: Names,
         actions: Actions,
         conditions: Conditions,
         comments_of: Callable[[Element], list[str]],
     ) -> None:
-        self._document, self._values, self._ledger = document, values, ledger
-        self._names, self._actions, self._conditions = names, actions, conditions
+        self._values, self._names = values, names
+        self._actions, self._conditions = actions, conditions
         self._comments_of = comments_of
         self._maneuvers = 0
         self.board = Board()
@@ -201,15 +198,9 @@ class BoardReader:
     def _maneuvers_of(self, group: Node) -> Iterator[Node]:
         yield from group.children("Maneuver")
         for reference in group.children("CatalogReference"):
-            self._values.text(reference, "catalogName")
-            said = self._values.text(reference, "entryName")
-            for each in reference.children("ParameterAssignments"):
-                each.use_all()
-            found = self._document.entry(reference.element)
-            if found is None:
-                reference.leave_out(f"there is no entry {said} in the catalogs")
-                continue
-            yield self._ledger.track(found[0], found[1].name)
+            entry = self._values.entry(reference)
+            if entry is not None:
+                yield entry
 
     def _repeats(self, node: Node) -> int:
         count = self._values.fixed(node, "maximumExecutionCount", 1.0)

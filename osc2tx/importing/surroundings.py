@@ -28,7 +28,7 @@ class Surroundings:
         lights: TrafficLights,
         marks: Marks,
     ) -> None:
-        self._values, self._document, self._lights = values, document, lights
+        self._values, self._lights = values, lights
         self._weather = Weather(values, document)
         self._marks = marks
         self.needs_environment = False
@@ -57,18 +57,7 @@ class Surroundings:
                 node.leave_out("the language has no such action, or not for this document")
 
     def _environment(self, node: Node) -> Iterator[Effect]:
-        environment = node.find("Environment") or self._of_catalog(node.one("CatalogReference"))
+        environment = node.find("Environment") or self._values.entry(node.one("CatalogReference"))
         for call in () if environment is None else self._weather.calls(environment):
             self.needs_environment = True
             yield Effect(Statement(f"environment_.{call}", length=0.0))
-
-    def _of_catalog(self, reference: Node) -> Node | None:
-        self._values.text(reference, "catalogName")
-        said = self._values.text(reference, "entryName")
-        for each in reference.children("ParameterAssignments"):
-            each.use_all()
-        found = self._document.entry(reference.element)
-        if found is None:
-            reference.leave_out(f"there is no entry {said} in the catalogs")
-            return None
-        return reference.entry(found[0], found[1].name)

@@ -66,6 +66,18 @@ class Values:
         """
         return substituted(parsed(text.strip()), self.aliases)
 
+    def entry(self, reference: Node) -> Node | None:
+        """Return the entry that a `CatalogReference` names; `None`, with a finding: none."""
+        self.text(reference, "catalogName")
+        said = self.text(reference, "entryName")
+        for each in reference.children("ParameterAssignments"):
+            each.use_all()
+        found = self._document.entry(reference.element)
+        if found is None:
+            reference.leave_out(f"there is no entry {said} in the catalogs")
+            return None
+        return reference.entry(found[0], found[1].name)
+
     # --- values -----------------------------------------------------------------------------------
 
     def quantity(

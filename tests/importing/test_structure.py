@@ -108,14 +108,16 @@ def test_a_whole_number_gets_its_unit_where_it_is_used() -> None:
     assert apart(found) < 0.1
 
 
+NEAR = """<Condition name="near" delay="0" conditionEdge="rising"><ByEntityCondition>
+  <TriggeringEntities triggeringEntitiesRule="any"><EntityRef entityRef="ego"/>
+  </TriggeringEntities>
+  <EntityCondition><RelativeDistanceCondition entityRef="other" value="18" freespace="true"
+  relativeDistanceType="longitudinal" rule="lessThan"/></EntityCondition>
+  </ByEntityCondition></Condition>"""
+
+
 def test_an_unknown_order_is_an_override() -> None:
-    near = """<Condition name="near" delay="0" conditionEdge="rising"><ByEntityCondition>
-      <TriggeringEntities triggeringEntitiesRule="any"><EntityRef entityRef="ego"/>
-      </TriggeringEntities>
-      <EntityCondition><RelativeDistanceCondition entityRef="other" value="18" freespace="true"
-      relativeDistanceType="longitudinal" rule="lessThan"/></EntityCondition>
-      </ByEntityCondition></Condition>"""
-    first = event("One", speed_change("25", "10"), near)
+    first = event("One", speed_change("25", "10"), NEAR)
     second = event("Two", speed_change("10", "2"), at_time("4"))
     found = imported(document(first + second))
     assert not faults(found)
@@ -124,13 +126,7 @@ def test_an_unknown_order_is_an_override() -> None:
 
 
 def test_an_event_in_parallel_ends_nothing_but_what_controls_the_same() -> None:
-    near = """<Condition name="near" delay="0" conditionEdge="rising"><ByEntityCondition>
-      <TriggeringEntities triggeringEntitiesRule="any"><EntityRef entityRef="ego"/>
-      </TriggeringEntities>
-      <EntityCondition><RelativeDistanceCondition entityRef="other" value="18" freespace="true"
-      relativeDistanceType="longitudinal" rule="lessThan"/></EntityCondition>
-      </ByEntityCondition></Condition>"""
-    first = event("One", lane_change(-1, "6"), near)
+    first = event("One", lane_change(-1, "6"), NEAR)
     second = event("Two", speed_change("10", "2"), at_time("2.5"), "parallel")
     found = imported(document(first + second))
     assert not faults(found)
