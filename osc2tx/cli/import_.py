@@ -15,10 +15,10 @@ from osc2tx.compilation.driver import Compilation
 from osc2tx.diagnostics import Severity
 from osc2tx.grading.imports import import_deviation
 from osc2tx.grading.runs import NoEvidence
-from osc2tx.importing.cast import Libraries
 from osc2tx.importing.distributions import Distribution
 from osc2tx.importing.document import Folders, Refused
 from osc2tx.importing.importer import Imported
+from osc2tx.importing.libraries import Libraries
 from osc2tx.importing.names import snake
 from osc2tx.importing.parameters import Parameter
 from osc2tx.importing.reading import import_file

@@ -9,12 +9,10 @@ from osc2tx.importing.controllers import gives_control, note_controllers
 from osc2tx.importing.cursor import Node
 from osc2tx.importing.document import Document
 from osc2tx.importing.effects import Effect, Readings
-from osc2tx.importing.marks import Marks
 from osc2tx.importing.offsets import Offsets
 from osc2tx.importing.places import Places
 from osc2tx.importing.program import Statement
 from osc2tx.importing.routes import Routes
-from osc2tx.importing.signals import TrafficLights
 from osc2tx.importing.speeds import Speeds
 from osc2tx.importing.surroundings import Surroundings
 from osc2tx.importing.synchrony import Synchrony
@@ -35,19 +33,13 @@ class Actions:
         values: Values,
         places: Places,
         actors: Mapping[str, Actor],
-        lights: TrafficLights,
-        marks: Marks,
+        surroundings: Surroundings,
     ) -> None:
         self.readings = readings = Readings(values, places, actors)
         self._document, self._actors = document, actors
         self._speeds, self._offsets = Speeds(readings), Offsets(readings)
         self._routes, self._synchrony = Routes(readings), Synchrony(readings)
-        self._surroundings = Surroundings(values, document, lights, marks)
-
-    @property
-    def needs_environment(self) -> bool:
-        """Whether the scenario needs an environment."""
-        return self._surroundings.needs_environment
+        self._surroundings = surroundings
 
     def effects(self, action: Node, said: Sequence[str], *, at_start: bool = False) -> list[Effect]:
         """Return what an action does; with a finding what of it the language cannot say.

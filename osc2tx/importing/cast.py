@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import field
-from pathlib import Path
 
 from osc2tx.importing.controllers import note_controllers
 from osc2tx.importing.cursor import Ledger, Node
 from osc2tx.importing.dimensions import LENGTH, literal
 from osc2tx.importing.document import Document
+from osc2tx.importing.libraries import Shared
 from osc2tx.importing.names import Names, snake
-from osc2tx.importing.program import INDENT, declaration, keeps
-from osc2tx.importing.report import ImportReport
+from osc2tx.importing.program import declaration, keeps
 from osc2tx.importing.values import Values
 from osc2tx.xosc.element import Element, Unresolved
 from osc2tx_shared.classes import dataclass
@@ -61,39 +59,6 @@ class Actor:
     def goes_on(self) -> str:
         """The action that goes on as the actor does."""
         return f"{self.name}.keep_speed()"
-
-
-@dataclass
-class Library:
-    """The types of the entities of a catalog.
-
-    Attributes:
-        name: Name of its file and of its namespace.
-        types: Lines by name of the type.
-        entries: Names of the types by those in the catalog, with their kinds.
-    """
-
-    name: str
-    types: dict[str, list[str]] = field(default_factory=dict)
-    entries: dict[str, tuple[str, str]] = field(default_factory=dict)
-
-    @property
-    def text(self) -> str:
-        """The text of the file."""
-        lines = [
-            "import osc.standard.all",
-            "",
-            f"namespace {self.name} use std, stdtypes",
-            "",
-            f"export {', '.join(self.types)}",
-        ]
-        for text in self.types.values():
-            lines += ["", *text]
-        return "\n".join(lines) + "\n"
-
-
-Libraries = dict[Path, Library]
-"""Library files by the catalogs that they are made from."""
 
 
 TRAILERS = ("trailer", "semitrailer")
@@ -167,7 +132,6 @@ class Cast:
         actors: By their names in the document.
         lines: Their declarations, by their names in the document.
         tows: Names of trailers in the document with those of the actors that tow them.
-        imports: The libraries that they need.
     """
 
     def __init__(
@@ -176,14 +140,13 @@ class Cast:
         values: Values,
         ledger: Ledger,
         names: Names,
-        libraries: Libraries,
+        shared: Shared,
     ) -> None:
         self.actors: dict[str, Actor] = {}
         self.lines: dict[str, list[str]] = {}
         self.tows: dict[str, tuple[str, Node]] = {}
-        self.imports: set[str] = set()
         self._document, self._values, self._ledger = document, values, ledger
-        self._names, self._libraries = names, libraries
+        self._names, self._shared = names, shared
 
     def add(self, node: Node) -> None:
         """Take an entity.
@@ -224,18 +187,16 @@ class Cast:
                 f"there is no entry {entry_name} in the catalogs; it is any vehicle"
             )
             return "vehicle", "vehicle"
-        entry, path = found
-        if path not in self._libraries:
-            self._libraries[path] = self._library(path)
-        library = self._libraries[path]
-        vehicle = self._ledger.track(entry, path.name)
+        vehicle = self._ledger.track(found[0], found[1].name)
         self._note_trailers(vehicle, name)
-        if entry_name in library.entries:
-            vehicle.use_all()  # the document that made the type has reported on it
+        known = self._shared.type_of(found[1], entry_name)
+        if known is None:
+            kind, constraints = facts(vehicle, self._document)
+            body = keeps(constraints) or ["event unused"]
+            known = self._shared.new_type(found[1], vehicle.said("name"), _moving(kind), kind, body)
         else:
-            self._add_type(library, vehicle)
-        self.imports.add(library.name)
-        return library.entries[entry_name]
+            vehicle.use_all()  # the document that made the type has reported on it
+        return known.name, known.kind
 
     def _note_trailers(self, vehicle: Node, name: str) -> None:
         """Note the trailer that a vehicle tows from the start on."""
@@ -257,23 +218,6 @@ class Cast:
                 found.append(f"{vehicle}.tow_trailer(trailer: {trailer.name})")
         return found
 
-    def _library(self, path: Path) -> Library:
-        taken = {each.name for each in self._libraries.values()}
-        names = Names(ImportReport(""), taken)
-        return Library(names.new(path.stem, kind="library"))
-
-    def _add_type(self, library: Library, node: Node) -> None:
-        said = node.said("name")
-        others = {name for each in self._libraries.values() for name in each.types}
-        type_name = Names(ImportReport(""), others | library.types.keys()).new(
-            said, kind="entity type"
-        )
-        kind, constraints = facts(node, self._document)
-        lines = [f"actor {type_name} inherits {kind}:"]
-        lines += [f"{INDENT}{each}" for each in keeps(constraints)] or [f"{INDENT}event unused"]
-        library.types[type_name] = lines
-        library.entries[said] = (type_name, _moving(kind))
-
 
 def _moving(kind: str) -> str:
     """Return the type whose actions an actor of a type has."""
@@ -290,4 +234,4 @@ def bodies_of(document: Document) -> list[Element]:
     )
 
 
-__all__ = ["Actor", "Cast", "Libraries", "Library", "Unresolved", "bodies_of"]
+__all__ = ["Actor", "Cast", "Unresolved", "bodies_of"]

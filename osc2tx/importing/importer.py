@@ -8,13 +8,14 @@ from pathlib import Path
 
 from osc2tx.importing.actions import Actions
 from osc2tx.importing.carla import is_of_carla, mirrored
-from osc2tx.importing.cast import Cast, Libraries
+from osc2tx.importing.cast import Cast
 from osc2tx.importing.conditions import Conditions
 from osc2tx.importing.cursor import Ledger
 from osc2tx.importing.declarations import Declarations
 from osc2tx.importing.distributions import Distribution
 from osc2tx.importing.document import NOWHERE, Document, Folders, Refused, with_values
 from osc2tx.importing.expressions import Untyped
+from osc2tx.importing.libraries import Libraries, Shared
 from osc2tx.importing.marks import Marks
 from osc2tx.importing.names import Names
 from osc2tx.importing.parameters import Parameter
@@ -26,6 +27,7 @@ from osc2tx.importing.starting import is_straight_ahead
 from osc2tx.importing.starts import Starts
 from osc2tx.importing.steps import BoardReader
 from osc2tx.importing.structure import Structure
+from osc2tx.importing.surroundings import ENVIRONMENT, Surroundings
 from osc2tx.importing.values import Values
 from osc2tx.importing.whole import Whole, is_endless
 from osc2tx.xosc import Element, Unreadable, read
@@ -126,11 +128,12 @@ class _Import:
         self._report = ImportReport(source)
         self._ledger = Ledger(self._report)
         self._root = self._ledger.track(document.root)
-        self._names = Names(self._report, ("road", "environment_", CONTROLLER))
+        self._names = Names(self._report, ("road", ENVIRONMENT, CONTROLLER))
         self._scenario = self._names.new(name, kind="scenario")
         self._report.scenario = self._scenario
         self._values = Values(document, self._names, self._open)
-        self._cast = Cast(document, self._values, self._ledger, self._names, libraries)
+        self._shared = Shared(libraries)
+        self._cast = Cast(document, self._values, self._ledger, self._names, self._shared)
         self._marks = Marks(document, self._names, self._report)
         self._comments: dict[object, list[str]] = {}
         for comment in document.comments:
@@ -154,7 +157,8 @@ class _Import:
             body = places.bodies.get(said)
             actor.is_free = is_straight_ahead(places.map, body, beside=leaves)
         lights = TrafficLights(places.map, self._values, self._names)
-        actions = Actions(self._document, self._values, places, actors, lights, self._marks)
+        surroundings = Surroundings(self._values, self._document, self._shared, lights, self._marks)
+        actions = Actions(self._document, self._values, places, actors, surroundings)
         conditions = Conditions(
             self._values,
             places,
@@ -176,8 +180,10 @@ class _Import:
         whole = Whole(self._document, self._cast, self._names, self._report)
         program.body = whole.behavior(structure, structure.branches(), inits, board.end)
         self._find_used(program, places, structure)
-        program.declarations = self._declarations(places, actions, lights, structure, program.text)
-        program.imports = sorted(self._cast.imports)
+        program.declarations = self._declarations(
+            places, surroundings, lights, structure, program.text
+        )
+        program.imports = sorted(self._shared.imports)
         self._report.under_test = [each.name for each in actors.values() if each.is_under_test]
         for step in structure.events:
             if step.effects and structure.references[step.label] < 1:
@@ -236,7 +242,7 @@ class _Import:
     def _declarations(
         self,
         places: Places,
-        actions: Actions,
+        surroundings: Surroundings,
         lights: TrafficLights,
         structure: Structure,
         written: str,
@@ -245,8 +251,8 @@ class _Import:
             self._document, self._root, self._values, self._report, self._open, self._comments_of
         )
         lines = declared.map()
-        if actions.needs_environment:
-            lines.append("environment_: environment")
+        if surroundings.needs_environment:
+            lines.append(f"{ENVIRONMENT}: environment")
         if lights.is_switched:
             lines.append(f"{CONTROLLER}: traffic_light_controller")
         lines += lights.lines

@@ -44,9 +44,21 @@ def short(name: str) -> str:
 
 
 @cache
+def _library() -> tuple[str, ...]:
+    return tuple(library_source(name, STANDARDS[-1]).text for name in LIBRARY)
+
+
+@cache
+def actions_of(actor: str) -> frozenset[str]:
+    """Return the names of the actions that the library has for a type of actors."""
+    declared = re.compile(rf"^action {actor}\.(\w+)", re.MULTILINE)
+    return frozenset(name for text in _library() for name in declared.findall(text))
+
+
+@cache
 def reserved() -> frozenset[str]:
     """Return the names that the language and its library have."""
-    texts = [library_source(name, STANDARDS[-1]).text for name in LIBRARY]
+    texts = _library()
     found = {name for text in texts for name in _DECLARED.findall(text)}
     return frozenset(found | set(_WORDS.split()))
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from osc2tx.importing.cast import Libraries
 from osc2tx.importing.distributions import Distribution, read_distribution
 from osc2tx.importing.document import Folders, Refused
 from osc2tx.importing.importer import Imported, import_document
+from osc2tx.importing.libraries import Libraries
 from osc2tx.importing.reach import Reach
 from osc2tx.importing.report import ImportReport
 from osc2tx.xosc import Element, Place, Unreadable, read

@@ -7,11 +7,15 @@ from collections.abc import Iterator
 from osc2tx.importing.cursor import Node
 from osc2tx.importing.document import Document
 from osc2tx.importing.effects import Effect
+from osc2tx.importing.libraries import Shared
 from osc2tx.importing.marks import Marks
 from osc2tx.importing.program import Statement
 from osc2tx.importing.signals import TrafficLights
 from osc2tx.importing.values import Values
-from osc2tx.importing.weather import Weather
+from osc2tx.importing.weather import OWN, Weather
+
+ENVIRONMENT = "env"
+"""The name of the environment in scenarios."""
 
 
 class Surroundings:
@@ -25,12 +29,13 @@ class Surroundings:
         self,
         values: Values,
         document: Document,
+        shared: Shared,
         lights: TrafficLights,
         marks: Marks,
     ) -> None:
         self._values, self._lights = values, lights
         self._weather = Weather(values, document)
-        self._marks = marks
+        self._document, self._shared, self._marks = document, shared, marks
         self.needs_environment = False
 
     def effects(self, node: Node) -> Iterator[Effect]:
@@ -57,7 +62,16 @@ class Surroundings:
                 node.leave_out("the language has no such action, or not for this document")
 
     def _environment(self, node: Node) -> Iterator[Effect]:
-        environment = node.find("Environment") or self._values.entry(node.one("CatalogReference"))
-        for call in () if environment is None else self._weather.calls(environment):
+        reference = node.find("CatalogReference")
+        environment = node.find("Environment")
+        if environment is None and reference is not None:
+            environment = self._values.entry(reference)
+        calls = [] if environment is None else list(self._weather.calls(environment))
+        found = None if reference is None else self._document.entry(reference.element)
+        if reference is not None and found is not None and calls:
+            said = reference.said("entryName")
+            calls = [f"{self._shared.behavior(found[1], said, 'environment', calls).name}()"]
+        for call in calls:
             self.needs_environment = True
-            yield Effect(Statement(f"environment_.{call}", length=0.0))
+            text = f"{ENVIRONMENT}.{call.replace(OWN, ENVIRONMENT)}"
+            yield Effect(Statement(text, length=0.0))

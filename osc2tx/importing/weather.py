@@ -27,6 +27,10 @@ FALLING: Mapping[str, tuple[float, ...]] = {
 """Friction of roads while it rains or snows."""
 
 
+OWN = "actor"
+"""How the methods of an environment call it."""
+
+
 class Weather:
     """Reads environments."""
 
@@ -83,7 +87,7 @@ class Weather:
                 azimuth = self._values.quantity(node, "azimuth", ANGLE)
                 elevation = self._values.quantity(node, "elevation", ANGLE)
                 where = f"azimuth: {azimuth.text}, elevation: {elevation.text}"
-                yield f"assign_celestial_position(light_source: environment_.sun, {where})"
+                yield f"assign_celestial_position(light_source: {OWN}.sun, {where})"
             case "Wind":
                 speed = self._values.quantity(node, "speed", SPEED)
                 # from where it comes, clockwise from north, instead of whither from east

@@ -22,9 +22,9 @@ from osc2tx.diagnostics.codes import find_code
 from osc2tx.diagnostics.render import explanation_data, render_json
 from osc2tx.diagnostics.report import make_report
 from osc2tx.diagnostics.suggestions import did_you_mean
-from osc2tx.importing.cast import Libraries
 from osc2tx.importing.document import Refused
 from osc2tx.importing.importer import import_document
+from osc2tx.importing.libraries import Libraries
 from osc2tx.module_loading import scenarios_of_module
 from osc2tx.reference import as_text, entries, find, find_topics, topic_as_text, topics
 from osc2tx.version import __version__

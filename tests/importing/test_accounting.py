@@ -7,9 +7,9 @@ from xml.etree import ElementTree as ET
 import pytest
 
 from osc2tx.cli.import_settings import write_settings
-from osc2tx.importing.cast import Libraries
 from osc2tx.importing.document import Folders, Refused
 from osc2tx.importing.importer import import_document
+from osc2tx.importing.libraries import Libraries
 from osc2tx.importing.reading import import_file
 from tests.importing.documents import (
     CAR,

@@ -31,7 +31,7 @@ def test_the_weather_is_that_of_the_document() -> None:
         "wind(speed: 10mps, direction: 270deg)",
         "rain(intensity: 5mmph)",
     ):
-        assert f"environment_.{call}" in found.text
+        assert f"env.{call}" in found.text
     assert faults(found) == []
     assert not found.report.findings
 
