@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 
 from osc2tx.importing.cursor import Node
@@ -12,7 +13,10 @@ from osc2tx.importing.points import Spot, heading_of, odr_point
 from osc2tx.importing.starting import privates, teleports
 from osc2tx.importing.values import Values
 from osc2tx.xosc.element import Element
-from osc2tx_runtime.opendrive import LanePosition
+from osc2tx.xosc.player.bodies import Pose
+from osc2tx_runtime.opendrive import LanePosition, MapError
+
+SAME = 0.001  # m: so near are places that are the same
 
 
 class Beside:
@@ -92,6 +96,33 @@ class Beside:
             odr_point(place.road, str(place.lane), way, t),
             yaw="" if heading is None else heading_of(heading),
         )
+
+    def along_road(self, node: Node) -> tuple[LanePosition, str, float] | None:
+        """Return a place along the road of another actor: its lane, its s as a text, its heading.
+
+        `None`: it is not known, or its way across the road varies.
+        """
+        said = node.said("entityRef")
+        body, found = self._ground.bodies.get(said), self._ground.static_of(node)
+        start, road_map = self._start_of(said), self._ground.map
+        is_in_lane = start is not None and start.tag == "LanePosition"
+        if body is None or body.place is None or found is None or road_map is None:
+            return None
+        if start is None or not is_in_lane or (node.element.get("dt") or "").startswith("$"):
+            return None
+        s = self._values.quantity(node.other(start), "s", LENGTH)
+        ahead = self._values.quantity(node, "ds", LENGTH)
+        across = self._values.nominal(node, "dt") * road_map.travel_direction(*body.place[:2])
+        place = body.place._replace(s=s.value + ahead.value, offset=body.place.offset + across)
+        try:
+            at, pose = road_map.pose(place), self._ground.pose_of(found[0])
+        except (MapError, LookupError):
+            return None
+        if math.hypot(at.x - pose.x, at.y - pose.y) > SAME:
+            return None
+        heading = found[0].h if found[1] is None and isinstance(found[0], Pose) else found[1]
+        assert heading is not None
+        return place, total(LENGTH, (1, s), (1, ahead)).text, heading
 
     def at_gap(
         self, node: Node, said: str, reference: str, gap: Quantity, *, ahead: bool

@@ -213,11 +213,14 @@ class _Import:
         if is_of_carla(self._document.root):
             note = "places of the world are in the coordinates of CARLA; they are mirrored"
             self._report.idle.append(("description", said[0], note, str(header.place)))
-        if said[1]:
-            found.append(f"Author: {said[1]}")
+        rights = [said[1]] if said[1] else []
         for each in header.children("License"):
-            parts = [each.text("name"), each.text("spdxId"), each.text("resource")]
-            found.append("Licence: " + ", ".join(part for part in parts if part))
+            named = each.text("spdxId")
+            if named:
+                each.idle("its SPDX identifier says it", "name")
+            parts = [named or each.text("name"), each.text("resource")]
+            rights.append("licence: " + ", ".join(part for part in parts if part))
+        found += ["; ".join(rights)] if rights else []
         return found + self._comments.pop(None, [])
 
     def _comments_of(self, element: Element) -> list[str]:

@@ -61,6 +61,10 @@ class Places(Ground):
                 found = self.beside.in_road(inner)
             if found is not None:
                 return found
+        if inner.tag == "RelativeRoadPosition" and at_start:
+            found = self._along_road(inner)
+            if found is not None:
+                return found
         if inner.tag == "WorldPosition" or at_start:
             found = self._known(position, name)
             if found is not None:
@@ -93,6 +97,24 @@ class Places(Ground):
             return Spot(odr_point(road, str(aside[0]), s.text, literal(aside[1], LENGTH)))
         heading = direction + of_lane + turn
         return Spot(text, yaw=_yaw(turn), turned=self.points.orientation(heading, name))
+
+    def _along_road(self, node: Node) -> Spot | None:
+        """Return a place on the road of another actor, in its direction or against it."""
+        found = self.beside.along_road(node)
+        if found is None:
+            return None
+        place, s, heading = found
+        assert self.map is not None
+        along = self.map.travel_direction(place.road, place.lane)
+        lane, across = place.lane, place.offset * along
+        turn = wrapped(heading - self.map.pose(place).h - (math.pi if along < 0 else 0.0))
+        if abs(turn) > STRAIGHT:
+            aside = self._against(place)
+            if aside is None or abs(abs(turn) - math.pi) > STRAIGHT:
+                return None
+            lane, across = aside
+        node.use_all()
+        return Spot(odr_point(place.road, str(lane), s, literal(round(across, 6), LENGTH)))
 
     def _against(self, place: LanePosition) -> tuple[int, float] | None:
         """Return the innermost lane of oncoming traffic, and the offset (m) from it of a position.

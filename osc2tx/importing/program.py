@@ -60,9 +60,10 @@ def composed(kind: Kind, members: Sequence[Statement]) -> Statement:
     flat: list[Statement] = []
     members = settled(members) if kind == "serial" else members
     for member in members:
-        is_same = member.text == kind and member.members is not None
-        if is_same and not member.label and not member.modifiers and not member.comments:
-            flat += member.members or ()
+        inner = member.members if member.text == kind else None
+        if inner and not member.label and not member.modifiers:
+            first = replace(inner[0], comments=[*member.comments, *inner[0].comments])
+            flat += [first, *inner[1:]]
         else:
             flat.append(member)
     if kind == "serial":

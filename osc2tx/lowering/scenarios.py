@@ -258,7 +258,7 @@ def _lower_scenario(
     placements: tuple[ir.Placement, ...] = ()
     if tree is not None:
         timed = tree if first_come else times.solve(tree)
-        placements, body = PlacementLowering(ctx).split(labelled_once(timed))
+        placements, body = PlacementLowering(ctx, scenario_of).split(labelled_once(timed))
         body = body or nothing_left(scenario)
     left_over = constraints.left_over()
     coverage = lower_coverage(ctx, scenario)

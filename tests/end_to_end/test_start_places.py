@@ -53,6 +53,29 @@ BEHIND = """
 """
 
 
+BEHIND_WEATHER = """
+    env: environment
+    do serial:
+        env.overcast()
+        a.assign_position(odr_point: road.create_odr_point("1", "-2", 120m, 0m))
+        parallel(duration: 1s):
+            a.drive()
+            b.replay_path(absolute: road.create_path_odr_points(
+                points: [
+                    road.create_odr_point("1", "-2", 240m, 0m),
+                    road.create_odr_point("1", "-2", 400m, 0m)
+                ],
+                interpolation: straight_line,
+                on_road_network: false
+            ))
+
+scenario environment.overcast:
+    do serial:
+        clouds(cloudiness: 8)
+        air(temperature: 4celsius)
+"""
+
+
 @pytest.fixture
 def play(load: Load, tmp_path: Path) -> Callable[..., Trace]:
     """Run a `do` block in the scenario above."""
@@ -98,6 +121,13 @@ def test_who_is_open_makes_room(play: Callable[..., Trace], seed: int, third: in
     assert found["b"]["s"] - found["c"]["s"] == pytest.approx(third)
     assert len({each["lane"] for each in found.values()}) == 1
     assert found["c"]["s"] > 0.0
+
+
+def test_what_follows_a_scenario_that_takes_no_time_places_actors(
+    play: Callable[..., Trace],
+) -> None:
+    found = starts(play(BEHIND_WEATHER))
+    assert (found["a"]["s"], found["b"]["s"]) == (120.0, 240.0)
 
 
 @pytest.mark.slow

@@ -1,6 +1,11 @@
 """Weather, traffic lights, trailers, and documents in the coordinates of CARLA."""
 
+from pathlib import Path
+
 from osc2tx.importing.carla import is_of_carla, mirrored
+from osc2tx.importing.document import Folders
+from osc2tx.importing.importer import import_document
+from osc2tx.importing.libraries import Libraries
 from osc2tx.xosc import read
 from tests.importing.documents import at_time, document, event, faults, imported
 
@@ -34,6 +39,36 @@ def test_the_weather_is_that_of_the_document() -> None:
         assert f"env.{call}" in found.text
     assert faults(found) == []
     assert not found.report.findings
+
+
+def test_an_environment_of_a_catalog_is_a_scenario_of_its_library(tmp_path: Path) -> None:
+    """Documents share it; other values of its parameters make another one. `rain` is taken."""
+    reference = """<GlobalAction><EnvironmentAction><CatalogReference catalogName="Skies"
+      entryName="Rain"><ParameterAssignments>{}</ParameterAssignments></CatalogReference>
+      </EnvironmentAction></GlobalAction>"""
+    cold = '<ParameterAssignment parameterRef="kelvin" value="263.15"/>'
+    (tmp_path / "Skies.xosc").write_text(
+        """<OpenSCENARIO><FileHeader revMajor="1" revMinor="3" date="" description="" author=""/>
+        <Catalog name="Skies"><Environment name="Rain"><ParameterDeclarations>
+        <ParameterDeclaration name="kelvin" parameterType="double" value="293.15"/>
+        </ParameterDeclarations><Weather cloudState="free" temperature="$kelvin"/></Environment>
+        </Catalog></OpenSCENARIO>"""
+    )
+    libraries: Libraries = {}
+    texts = [
+        import_document(
+            with_global(reference.format(given)).encode(),
+            "document.xosc",
+            libraries,
+            folders=Folders(catalogs=(tmp_path,)),
+        ).text
+        for given in ("", cold, "")
+    ]
+    calls = [line.strip() for text in texts for line in text.splitlines() if "env." in line]
+    assert calls == ["env.rain_2()", "env.rain_3()", "env.rain_2()"]
+    (library,) = libraries.values()
+    assert library.text.count("clouds(cloudiness: 0)") == 2
+    assert "air(temperature: -10celsius)" in library.text
 
 
 def test_friction_that_the_weather_does_not_give_is_reported() -> None:

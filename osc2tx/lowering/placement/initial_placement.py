@@ -14,6 +14,7 @@ from dataclasses import field
 from osc2tx import ir
 from osc2tx.catalogue import catalogue
 from osc2tx.diagnostics import Label, Span
+from osc2tx.lowering.behavior.invoked_times import ScenarioOf
 from osc2tx.lowering.behavior.time_expressions import is_range
 from osc2tx.lowering.context import LoweringContext
 from osc2tx.lowering.placement.carla_paths import START
@@ -43,9 +44,9 @@ class _Found:
 class PlacementLowering:
     """Splits a tree into initial placement and the rest of the tree."""
 
-    def __init__(self, ctx: LoweringContext) -> None:
-        """Take the place for complaints."""
-        self._ctx = ctx
+    def __init__(self, ctx: LoweringContext, scenario_of: ScenarioOf) -> None:
+        """Take the place for complaints, and what gives the scenarios that are invoked."""
+        self._ctx, self._scenario_of = ctx, scenario_of
         self._found: dict[str, _Found] = {}
         self._first: dict[str, FirstAction] = {}
         self._in_one_of: bool = False
@@ -89,11 +90,34 @@ class PlacementLowering:
     def _serial_members(
         self, node: ir.Serial, time: ir.Expression | None, *, is_start: bool
     ) -> Iterator[ir.Behavior | None]:
-        last = [member for member in node.members if not is_instant(member)]
+        last = [member for member in node.members if not self._is_instant(member)]
         time = (node.duration or time) if len(last) == 1 else None
         for member in node.members:
             yield self._rewrite(member, time, is_start=is_start)
-            is_start = is_start and is_instant(member)
+            is_start = is_start and self._is_instant(member)
+
+    def _is_instant(self, node: ir.Behavior) -> bool:
+        """Whether the successor of a member still begins at the start."""
+        match node:
+            case ir.Serial() | ir.Parallel():
+                return all(map(self._is_instant, node.members))
+            case ir.OneOf():
+                return any(map(self._is_instant, node.members))
+            case ir.Invoke(qualified_name=name):
+                entry = catalogue().actions.get(name)
+                return name in catalogue().lowered or (entry is not None and entry.is_momentary)
+            case ir.InvokeScenario(duration=None, until=()):
+                keys = (node.key, *(each.key for each in node.specials))
+                return all(
+                    isinstance(each, ir.Scenario)
+                    and not each.placements
+                    and self._is_instant(each.body)
+                    for each in map(self._scenario_of, keys)
+                )
+            case ir.Emit() | ir.Finish() | ir.Call():
+                return True
+            case ir.InvokeScenario() | ir.Wait() | ir.On():
+                return False
 
     def _composition(
         self, node: ir.Composition, members: Iterable[ir.Behavior | None]
@@ -133,7 +157,7 @@ class PlacementLowering:
         self, node: ir.Invoke, actor: str, time: ir.Expression | None, *, is_later: bool
     ) -> None:
         """Note the start that suits the first action of an actor, where nothing states one."""
-        if is_instant(node):
+        if self._is_instant(node):
             return
         limited = None if is_range(time) else time
         found = FirstAction(node, limited, is_later=is_later)
@@ -270,22 +294,6 @@ def _beyond(implied: ir.Placement, stated: ir.Placement | None) -> ir.Placement:
     known = {_subject(modifier) for modifier in stated.modifiers} if stated is not None else set()
     left = (modifier for modifier in implied.modifiers if _subject(modifier) not in known)
     return replace(implied, modifiers=tuple(left))
-
-
-def is_instant(node: ir.Behavior) -> bool:
-    """Whether the successor of a member still begins at the start."""
-    match node:
-        case ir.Serial() | ir.Parallel():
-            return all(is_instant(member) for member in node.members)
-        case ir.OneOf():
-            return any(is_instant(member) for member in node.members)
-        case ir.Invoke(qualified_name=name):
-            entry = catalogue().actions.get(name)
-            return name in catalogue().lowered or (entry is not None and entry.is_momentary)
-        case ir.Emit() | ir.Finish() | ir.Call():
-            return True
-        case ir.InvokeScenario() | ir.Wait() | ir.On():
-            return False
 
 
 # Arguments of `follow_lane` -> the equivalent modifier of the start, and its parameter.

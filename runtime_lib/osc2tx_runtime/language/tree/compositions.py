@@ -48,7 +48,12 @@ class Composition(Node):
         self._is_plain = self._limits is None
         self._content_open = self._is_open()
         self.open_ended = self._content_open and self._limits is None
-        self.instant = self._limits is None and all(is_instant(child) for child in self.children)
+        self.instant = self.takes_no_time
+
+    @property
+    def takes_no_time(self) -> bool:
+        """Whether it is over at once, as its members are; known before it is set up."""
+        return self._limits is None and all(is_instant(child) for child in self.children)
 
     def pulse(self) -> Status:
         """Advance the members, within the duration."""
@@ -360,6 +365,8 @@ def is_open(child: Behaviour) -> bool:
 
 def is_instant(child: Behaviour) -> bool:
     """Return whether a member takes no time."""
+    if isinstance(child, Composition):
+        return child.takes_no_time
     return isinstance(child, Node) and child.instant
 
 

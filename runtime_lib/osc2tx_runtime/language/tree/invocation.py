@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from osc2tx_runtime.language.declared import BaseActor
 from osc2tx_runtime.language.tree.base import Behaviour, Node
-from osc2tx_runtime.language.tree.compositions import OneOf, Serial, is_service
+from osc2tx_runtime.language.tree.compositions import OneOf, Serial, is_instant, is_service
 from osc2tx_runtime.language.tree.duration_limits import Duration
 from osc2tx_runtime.language.tree.parallel import Parallel
 
@@ -103,7 +103,7 @@ def starts_at_once(node: Behaviour, race: bool) -> list[bool]:
     """Return for each member whether it certainly starts with the composition."""
     members = node.children
     if isinstance(node, Serial):
-        instant = [isinstance(child, Node) and child.instant for child in members]
+        instant = [is_instant(child) for child in members]
         return [all(instant[:index]) for index in range(len(members))]
     if isinstance(node, Parallel):
         if node.overlap in ("end", "final") or node.end_to_end is not None:
