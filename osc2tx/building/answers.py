@@ -14,9 +14,9 @@ import stat
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
-from osc2tx.building.fingerprint import STARTED, digest, tool_stamp
+from osc2tx.building.fingerprint import STARTED, tool_stamp
 from osc2tx.support.paths import SETTINGS_FILES
-from osc2tx_shared.cache import cache_folder, forget_the_oldest, read_own, write_own
+from osc2tx_shared.cache import cache_folder, digest, forget_the_oldest, read_own, write_own
 from osc2tx_shared.text import OutputError, StreamName, explain, is_watched, replay
 
 FORMAT = 1

@@ -195,7 +195,7 @@ class _Build:
             self.memory.keep(result)
             self.progress(next(numbers), len(missing))
 
-        made = compile_jobs(missing, self.options.workers, finished)
+        made = compile_jobs(missing, self.options.workers, finished, self.memory.findings)
         if made:
             self.folder.look_again()
         known |= dict(zip(missing, made, strict=True))

@@ -178,6 +178,6 @@ class _State:
             self._memory.keep(result)
             self._progress(next(numbers), len(missing))
 
-        made = compile_jobs(missing, self._workers, finished)
+        made = compile_jobs(missing, self._workers, finished, self._memory.findings)
         known |= dict(zip(missing, made, strict=True))
         return [known[job] for job in jobs]

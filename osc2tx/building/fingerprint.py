@@ -1,4 +1,4 @@
-"""Digests of texts, and the stamp that identifies this installation of osc2tx."""
+"""The stamp that identifies this installation of osc2tx."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from pathlib import Path
 
 from osc2tx.resources import resource_dir
 from osc2tx.version import __version__
-from osc2tx_shared.cache import read_own, write_own
+from osc2tx_shared.cache import digest, read_own, write_own
 
 _PACKAGE = Path(__file__).resolve().parent.parent
 _KINDS = (".py", ".osc", ".json", ".toml", ".j2", ".xodr")
@@ -25,11 +25,6 @@ _OURS = ("osc2tx_shared.classes", "osc2tx_shared.rules", "osc2tx_runtime", "osc2
 _LIBRARIES = ("antlr4", "black", "jinja2", "pint")
 STARTED = time.time_ns()
 _VERSIONS = f"{__version__} {sys.version_info[:3]}"
-
-
-def digest(data: bytes) -> str:
-    """Return the digest of a text: half of SHA-256."""
-    return hashlib.sha256(data).hexdigest()[:32]
 
 
 @cache

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from osc2tx.compilation.driver import Compilation, Memory
     from osc2tx.config import Config, ConfigFiles, GivenOptions
     from osc2tx.options import CompileOptions
+    from osc2tx_shared.cache import Records
 
 RunTexts: TypeAlias = tuple[tuple[str, tuple[str, ...]], ...]
 """Options of runs as the settings file states them, by name."""
@@ -54,6 +55,7 @@ class Job:
         memory: Memory | None = None,
         text: str | None = None,
         unsaved: Mapping[Path, str] | None = None,
+        findings: Records | None = None,
     ) -> Compilation:
         """Return its compilation; no stage has run yet.
 
@@ -61,6 +63,7 @@ class Job:
             memory: Facts about imported files, shared with compilations of other jobs.
             text: The text, if it differs from the file.
             unsaved: The texts of imported files that differ from those, by path.
+            findings: Findings of earlier builds about documents.
         """
         from osc2tx.compilation.driver import Compilation
         from osc2tx.config import ConfigFiles
@@ -75,6 +78,7 @@ class Job:
             memory=memory,
             text=text,
             unsaved=unsaved or {},
+            findings=findings,
         )
 
     @property

@@ -9,8 +9,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import IO
 
-from osc2tx.building.fingerprint import digest
-from osc2tx_shared.cache import cache_folder
+from osc2tx_shared.cache import cache_folder, digest
 
 if sys.platform == "win32":
     import msvcrt

@@ -10,7 +10,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from enum import Enum
 from pathlib import Path
 
-from osc2tx.building.fingerprint import digest
 from osc2tx.building.ownership import beside, is_in_conflict, outputs_below, stated_source
 from osc2tx.building.results import FileResult, OutputRecord
 from osc2tx.building.version_control import committed_objects, is_object
@@ -25,6 +24,7 @@ from osc2tx.support.paths import (
     module_of,
     source_map_of,
 )
+from osc2tx_shared.cache import digest
 from osc2tx_shared.classes import dataclass
 
 

@@ -13,7 +13,6 @@ from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
-from osc2tx.building.fingerprint import digest
 from osc2tx.building.run_diagnostics import diagnostic_of_run
 from osc2tx.compilation.imports import look_up
 from osc2tx.compilation.map_files import named_control_files, named_maps
@@ -22,6 +21,7 @@ from osc2tx.diagnostics import CODES, Severity
 from osc2tx.ir.behaviors import Invoke, InvokeScenario
 from osc2tx.ir.verify import walk_behaviors
 from osc2tx.support.paths import real_path
+from osc2tx_shared.cache import digest
 from osc2tx_shared.classes import replace
 from osc2tx_shared.map_files import SHIPPED, map_places, places_in_project
 

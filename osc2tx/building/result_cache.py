@@ -18,7 +18,7 @@ from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
-from osc2tx.building.fingerprint import digest, tool_stamp
+from osc2tx.building.fingerprint import tool_stamp
 from osc2tx.building.jobs import Job
 from osc2tx.building.places import Places
 from osc2tx.building.results import (
@@ -37,7 +37,14 @@ from osc2tx.compilation.file_reports import LossEntry
 from osc2tx.compilation.roots import innermost
 from osc2tx.config import ConfigFiles
 from osc2tx.diagnostics import SourceFile
-from osc2tx_shared.cache import cache_folder, forget_the_oldest, read_own, write_own
+from osc2tx_shared.cache import (
+    Records,
+    cache_folder,
+    digest,
+    forget_the_oldest,
+    read_own,
+    write_own,
+)
 from osc2tx_shared.classes import replace
 
 if TYPE_CHECKING:
@@ -76,6 +83,13 @@ class ResultCache:
         self._clean: dict[str, bool] = {}
         self._options: dict[tuple[object, ...], tuple[CompileOptions, str]] = {}
         self._places: dict[tuple[object, ...], Places] = {}
+
+    @property
+    def findings(self) -> Records | None:
+        """Findings of earlier builds about documents."""
+        if self._folder is None or self._stamp is None:
+            return None
+        return Records(self._folder / "findings", self._stamp)
 
     @property
     def is_kept(self) -> bool:

@@ -8,12 +8,12 @@ from functools import partial
 from pathlib import Path, PurePath
 from typing import TYPE_CHECKING
 
-from osc2tx.building.fingerprint import digest
 from osc2tx.building.jobs import Job, RunTexts, find_bug
 from osc2tx.building.severities import Severities
 from osc2tx.compilation.file_reports import LossEntry
 from osc2tx.diagnostics import Diagnostic, SourceFile, Span
 from osc2tx.diagnostics.report import ScenarioEntry
+from osc2tx_shared.cache import digest
 from osc2tx_shared.classes import dataclass, replace
 
 if TYPE_CHECKING:
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from osc2tx.compilation.uses import UsedFile
     from osc2tx.config import ConfigFiles
     from osc2tx.options import CompileOptions
+    from osc2tx_shared.cache import Records
 
 SUFFIX = ".osc"
 GRADING = "OSC518"  # code of errors about documents that were played
@@ -122,14 +123,17 @@ class FileResult:
         return Span(self.source or SourceFile(self.job.name, "", self.job.path), 0, 0)
 
 
-def compile_job(job: Job, memory: Memory | None = None) -> FileResult:
+def compile_job(
+    job: Job, memory: Memory | None = None, findings: Records | None = None
+) -> FileResult:
     """Compile a file to its outputs; a mistake of one back end costs only what that one makes.
 
     Args:
         job: What to compile.
         memory: What other jobs found out about imported files; it grows.
+        findings: Findings of earlier builds about documents.
     """
-    compilation = job.compilation(memory)
+    compilation = job.compilation(memory, findings=findings)
     bug = find_bug(compilation, lambda item: item.is_supported)
     if bug:
         return _result(job, compilation, bug)

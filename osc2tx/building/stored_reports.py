@@ -6,10 +6,10 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
-from osc2tx.building.fingerprint import digest
 from osc2tx.diagnostics import Diagnostic, Label, Severity, SourceFile, Span
 from osc2tx.diagnostics.fixes import Edit, Fix
 from osc2tx.diagnostics.report import ScenarioEntry
+from osc2tx_shared.cache import digest
 
 
 class ReportWriter:

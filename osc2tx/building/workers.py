@@ -10,7 +10,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 
     from osc2tx.compilation.driver import Memory
     from osc2tx.config import ConfigFiles
+    from osc2tx_shared.cache import Records
 
 FEWEST_FILES = 8  # for a second process: starting one takes as long as compiling a few files
 
@@ -42,7 +43,10 @@ def processors() -> int:
 
 
 def compile_jobs(
-    jobs: Sequence[Job], workers: int, finished: Finished = lambda result: None
+    jobs: Sequence[Job],
+    workers: int,
+    finished: Finished = lambda result: None,
+    findings: Records | None = None,
 ) -> list[FileResult]:
     """Return the results of all jobs, in their order; first remove what killed builds have left.
 
@@ -50,12 +54,14 @@ def compile_jobs(
         jobs: What to compile.
         workers: How many processes may work at once.
         finished: Is given each result as soon as there is one.
+        findings: Findings of earlier builds about documents.
     """
     if jobs:
         from osc2tx_shared.own_folders import REVISION, remove_left_over
 
         remove_left_over(REVISION)
-    return run_jobs(compile_job, jobs, workers, finished)
+    work = partial(compile_job, findings=findings)
+    return run_jobs(work, jobs, workers, finished)
 
 
 def run_jobs(

@@ -44,6 +44,7 @@ if TYPE_CHECKING:
     from osc2tx.ir import Module
     from osc2tx.semantics import SemanticModel
     from osc2tx.syntax.ast import File
+    from osc2tx_shared.cache import Records
 
 
 __all__ = ["Compilation", "Memory", "Output"]
@@ -81,6 +82,7 @@ class Compilation:
         options_of: Callable[[Path], CompileOptions] | None = None,
         memory: Memory | None = None,
         unsaved: Mapping[Path, str] = NO_TEXTS,
+        findings: Records | None = None,
     ) -> None:
         """Take the file; nothing is read yet.
 
@@ -96,6 +98,7 @@ class Compilation:
             options_of: Returns the options of other files; by default those of this one.
             memory: Separately compiled imported files, shared by several files.
             unsaved: Texts that replace files, by path with links followed.
+            findings: Findings of earlier builds about documents.
         """
         self.path = path
         self.name = name
@@ -108,6 +111,7 @@ class Compilation:
         self._options_of = options_of or (lambda _: options)
         self._memory: Memory = {} if memory is None else memory
         self._unsaved = unsaved
+        self._findings = findings
         self.compiled_alone: dict[str, Compilation] = {}
         self._is_trusted = is_trusted
         self._text = text
@@ -316,16 +320,23 @@ class Compilation:
         from osc2tx.grading import Source, graded
 
         with room_for_trees():
-            source = Source(self.ir, self.options, self.path.parent, self.whole_module)
+            folder, module = self.path.parent, self.whole_module
+            source = Source(self.ir, self.options, folder, module, self._findings)
             return graded(self.xml, source, self.sink)
 
     def whole_module(self) -> GeneratedModule:
-        """Return a module to run, with the declarations of imported files in it."""
+        """Return a module to run, with the declarations of imported files in it.
+
+        Its classes inherit nothing, so that its text is what is run, and nothing else of the bases.
+        """
         from osc2tx.backends.py_trees import emit
+        from osc2tx.ir import without_bases
 
         assert self.ir is not None, "there is something to run"
-        module = self.module if self.has_module and not self.sharing.homes else None
-        return module or emit(self.ir, is_formatted=False)
+        is_whole = not self.ir.bases and not any(each.base for each in self.ir.scenarios)
+        if is_whole and self.has_module and not self.sharing.homes:
+            return self.module or emit(self.ir, is_formatted=False)
+        return emit(without_bases(self.ir), is_formatted=False)
 
     @property
     def stem(self) -> str:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import ExitStack
+from functools import cache
 from pathlib import Path
 
 from osc2tx import ir
@@ -13,12 +15,14 @@ from osc2tx.backends.xosc.report_json import report_json
 from osc2tx.catalogue import catalogue
 from osc2tx.diagnostics import DiagnosticSink, InternalCompilerError, Span
 from osc2tx.grading.comparison import first_unlike
+from osc2tx.grading.findings import find
 from osc2tx.grading.measuring import Finding, Measuring
 from osc2tx.grading.runs import NoEvidence
 from osc2tx.module_loading import scenarios_of_module
 from osc2tx.options import CompileOptions
 from osc2tx.xosc import read
 from osc2tx_runtime import Scenario, ScenarioError
+from osc2tx_shared.cache import Records
 from osc2tx_shared.classes import dataclass, replace
 
 UNLIKE = "the played document deviates from the scenario"
@@ -37,12 +41,14 @@ class Source:
         options: Options of the compilation.
         folder: The folder of the file, with maps.
         generate: Generates its separate Python module.
+        findings: Findings of earlier builds; `None` if documents are played in any case.
     """
 
     module: ir.Module
     options: CompileOptions
     folder: Path
     generate: Callable[[], GeneratedModule]
+    findings: Records | None = None
 
 
 def graded(
@@ -60,8 +66,10 @@ def graded(
     if any(map(_is_of_a_package, source.module.scenarios)):  # installed here, not elsewhere
         return tuple(_unmeasured(each, source, PACKAGES) for each in documents)
     try:
-        with scenarios_of_module(source.generate()) as scenarios:
-            return tuple(_graded(each, scenarios[each.name], source, sink) for each in documents)
+        with ExitStack() as stack:
+            module = source.generate()
+            scenarios = cache(lambda: stack.enter_context(scenarios_of_module(module)))
+            return tuple(_graded(each, module, scenarios, source, sink) for each in documents)
     except (ScenarioError, ImportError, InternalCompilerError) as error:
         reason = f"there is no module to run: {error}"
         return tuple(_unmeasured(each, source, reason) for each in documents)
@@ -77,13 +85,31 @@ def _is_of_a_package(scenario: ir.Scenario) -> bool:
 
 
 def _graded(
-    found: XmlScenario, scenario: type[Scenario], source: Source, sink: DiagnosticSink
+    found: XmlScenario,
+    module: GeneratedModule,
+    scenarios: Callable[[], Mapping[str, type[Scenario]]],
+    source: Source,
+    sink: DiagnosticSink,
 ) -> XmlScenario:
-    """Return a document, graded by its runs."""
+    """Return a document, graded by its runs.
+
+    Args:
+        found: The document.
+        module: The module with its scenario.
+        scenarios: Loads the scenarios of the module.
+        source: The origin of the document.
+        sink: Takes an error if the document contradicts its report.
+    """
     if found.xml is None:
         return found
+    options = source.options.xml
+
+    def measure() -> Finding:
+        return Measuring(found, scenarios()[found.name], options, source.folder).run()
+
     try:
-        finding = Measuring(found, scenario, source.options.xml, source.folder).run()
+        known = source.findings
+        finding = find(known, found, module, options, measure) if known else measure()
     except NoEvidence as error:
         return _unmeasured(found, source, str(error))
     report = found.report

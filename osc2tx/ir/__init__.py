@@ -88,7 +88,7 @@ from osc2tx.ir.expressions import (
     Undefined,
     UserShape,
 )
-from osc2tx.ir.inheritance import Additions, additions, is_named_after
+from osc2tx.ir.inheritance import Additions, additions, is_named_after, without_bases
 from osc2tx.ir.nodes import AbstractScenario, Module, Override, Placement, Scenario
 from osc2tx.ir.traversal import applied_with, bounds, children, constant, is_live, rewrite, walk
 from osc2tx.ir.trees import (

@@ -15,7 +15,7 @@ from osc2tx.ir.compare import field_names, means_same, same
 from osc2tx.ir.coverage import Coverage
 from osc2tx.ir.declarations import Actor, Constraint, Declaration, Method, Parameter, Struct
 from osc2tx.ir.expressions import Expression, FieldRef, MethodCall, ScenarioSelf
-from osc2tx.ir.nodes import AbstractScenario, Placement, Scenario
+from osc2tx.ir.nodes import AbstractScenario, Module, Placement, Scenario
 from osc2tx.ir.values import ExpressionBase
 from osc2tx.ir.verify import walk_behaviors
 from osc2tx_shared.classes import dataclass, replace
@@ -106,6 +106,12 @@ def additions(scenario: AbstractScenario, base: AbstractScenario) -> Additions |
         places_anew=places is None,
         body=_own_body(scenario, base),
     )
+
+
+def without_bases(module: Module) -> Module:
+    """Return a module whose scenarios inherit nothing: each has all that it inherits itself."""
+    scenarios = tuple(replace(each, base=None) for each in module.scenarios)
+    return replace(module, scenarios=scenarios, bases=())
 
 
 def _narrowed(

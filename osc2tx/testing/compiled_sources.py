@@ -148,7 +148,8 @@ class CompiledSources:
             self._memory.keep(result)
             progress(next(numbers), len(missing))
 
-        made = compile_jobs([asked[job] for job in missing], workers, finished)
+        wanted = [asked[job] for job in missing]
+        made = compile_jobs(wanted, workers, finished, self._memory.findings)
         known |= dict(zip(missing, made, strict=True))
         return [known[job] for job in jobs]
 

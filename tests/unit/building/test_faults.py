@@ -42,7 +42,7 @@ def compiled_once(monkeypatch: pytest.MonkeyPatch) -> None:
     """Each text in its place is compiled once: what the build does with the result is tested."""
     found: dict[tuple[Job, bytes], FileResult] = {}
 
-    def compiled(job: Job, memory: object = None) -> FileResult:
+    def compiled(job: Job, memory: object = None, **others: object) -> FileResult:
         key = job, job.path.read_bytes()
         if key not in found:
             found[key] = compile_job(job)

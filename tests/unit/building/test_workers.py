@@ -40,7 +40,7 @@ def test_results_do_not_depend_on_the_number_of_processes(project: Project) -> N
     assert two.changes == one.changes
 
 
-def deadly(job: Job, memory: Memory | None = None) -> FileResult:
+def deadly(job: Job, memory: Memory | None = None, **others: object) -> FileResult:
     if job.name == "s06.osc":
         os._exit(1)
     return compile_job(job, memory)

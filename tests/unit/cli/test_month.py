@@ -100,9 +100,9 @@ def month(
 ) -> Month:
     compiled: list[str] = []
 
-    def counted(job: Job, memory: object = None) -> FileResult:
+    def counted(job: Job, memory: object = None, **others: object) -> FileResult:
         compiled.append(job.name)
-        return compile_job(job, memory)  # type: ignore[arg-type]
+        return compile_job(job, memory, **others)  # type: ignore[arg-type]
 
     monkeypatch.setattr(workers, "compile_job", counted)
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path_factory.mktemp("cache")))

@@ -247,7 +247,7 @@ import sys
 from osc2tx.building.results import compile_job
 from osc2tx.testing import compiled_sources
 
-def interrupted(jobs, workers, finished):
+def interrupted(jobs, workers, finished, findings):
     finished(compile_job(jobs[0]))
     raise KeyboardInterrupt
 
