@@ -59,7 +59,7 @@ def lower(
     options: CompileOptions,
     sink: DiagnosticSink,
 ) -> ir.Module:
-    """Lower the scenarios of the root file, and imported ones that they invoke or inherit.
+    """Lower scenarios and actions of the root file, and imported ones that they invoke or inherit.
 
     Rejected scenarios are reported and left out.
     """
@@ -68,7 +68,9 @@ def lower(
     used: list[sym.ActorSymbol | sym.StructSymbol] = []
     actions: list[sym.ActionSymbol] = []
     applied: list[sym.ModifierSymbol] = []
-    pending: list[Composed] = list(model.scenarios)
+    composed, others = _own_actions(model)
+    own: list[Composed] = [*model.scenarios, *composed]
+    pending = list(own)
     program = LoweringContext(
         model,
         analysis,
@@ -93,12 +95,12 @@ def lower(
         ),
         object_types=object_types(model, analysis),
     )
-    lowering = _ProgramLowering(program, options)
+    lowering = _ProgramLowering(program, options, frozenset(own))
     while pending:
         scenario = pending.pop(0)
         if scenario in lowered:
             continue
-        is_inherited_only = scenario not in model.scenarios and scenario not in invoked
+        is_inherited_only = scenario not in own and scenario not in invoked
         lowered[scenario], used_inside = lowering.lower(scenario, is_inherited_only)
         invoked.update(used_inside)
         pending += [*used_inside, *_user_base(scenario)]
@@ -118,7 +120,7 @@ def lower(
         comments=_head_comments(model.root),
         units=lower_units(model),
         types=lower_types(program, used),
-        actions=lower_actions(program, (*actions, *_own_actions(model))),
+        actions=lower_actions(program, (*actions, *others)),
     )
     modifiers = dict.fromkeys((*own_modifiers(model), *applied))
     module = replace(module, modifiers=lower_modifiers(program, modifiers))
@@ -131,10 +133,14 @@ class _ProgramLowering:
     Args:
         program: The program.
         options: Of the compilation.
+        own: The scenarios and actions of the root file.
     """
 
-    def __init__(self, program: LoweringContext, options: CompileOptions) -> None:
+    def __init__(
+        self, program: LoweringContext, options: CompileOptions, own: frozenset[Composed]
+    ) -> None:
         self._program = program
+        self._own = own
         self._first_come = options.dialect == "carla"
         self._made: dict[Composed, tuple[ir.AbstractScenario | None, Sequence[Composed]]] = {}
         self._by_key: dict[str, Composed] = {}
@@ -156,7 +162,6 @@ class _ProgramLowering:
     def _lower(
         self, scenario: Composed, is_inherited_only: bool
     ) -> tuple[ir.AbstractScenario | None, Sequence[Composed]]:
-        model = self._program.model
         ctx = (self._program.quiet() if is_inherited_only else self._program).of_scenario(
             frozenset(name for each in lineage_of(scenario) for name in each.members),
             same_actors(self._program.analysis.types[scenario]),
@@ -169,7 +174,7 @@ class _ProgramLowering:
         made = _lower_scenario(
             ctx,
             scenario,
-            is_imported=scenario not in model.scenarios,
+            is_imported=scenario not in self._own,
             first_come=self._first_come,
             scenario_of=scenario_of,
         )
@@ -202,13 +207,14 @@ def _bases_first(
     return found
 
 
-def _own_actions(model: SemanticModel) -> Iterator[sym.ActionSymbol]:
-    """Yield the actions of the root file that packages carry out."""
+def _own_actions(
+    model: SemanticModel,
+) -> tuple[Sequence[sym.ActionSymbol], Sequence[sym.ActionSymbol]]:
+    """Return the actions of the root file with a class of their own, and those of packages."""
     actions = (each for each in model.symbols if isinstance(each, sym.ActionSymbol))
-    for action in actions:
-        is_own = action.span.source is model.root.span.source
-        if is_own and not is_composed(action):
-            yield action
+    own = [each for each in actions if each.span.source is model.root.span.source]
+    composed = [each for each in own if is_composed(each)]
+    return composed, [each for each in own if each not in composed]
 
 
 def _described_parameters(analysis: ConstraintAnalysis) -> Iterator[sym.Symbol]:

@@ -238,12 +238,71 @@ actor tanker inherits truck:
     assert classes_in(compilation.module.python) == ["Tanker", "Top"]
 
 
+ACTIONS = """\
+import osc.standard
+
+# Accelerates, and goes on for a while.
+action vehicle.gain_speed:
+    target: speed
+    hold: time = 1s
+    do serial:
+        change_speed(target: target, rate_profile: smooth)
+        drive(duration: hold) with:
+            speed(target)
+
+action vehicle.stop_and_go:
+    pause: time with:
+        keep(it in [1s..3s])
+    do serial:
+        gain_speed(target: 10kph)
+        wait elapsed(pause)
+"""
+INVOKING = """\
+import osc.standard
+import actions
+
+scenario top:
+    hero: vehicle
+    do serial:
+        hero.drive(duration: 1s) with:
+            speed(20kph)
+        hero.stop_and_go()
+"""
+
+
+def test_actions_with_behavior_are_classes_of_their_file(tmp_path: Path) -> None:
+    """Also those that nothing in it invokes: bug 9 of issue 39. An action is no entry of a run."""
+    write(tmp_path, a=INVOKING, actions=ACTIONS)
+    text = module_of(tmp_path / "actions.osc")
+    assert classes_in(text) == ["GainSpeed", "StopAndGo"]
+    assert text.startswith('"""Actions `vehicle.gain_speed`, `vehicle.stop_and_go`.\n')
+    assert "create_root" not in text and "main" not in text
+    compilation = compiled(tmp_path / "a.osc")
+    assert compilation.ir is not None and compilation.module is not None
+    assert imports_in(compilation.module.python) == {"actions": ["StopAndGo"]}
+    assert classes_in(compilation.module.python) == ["Top"]
+    with scenarios_of_module(emit(compilation.ir)) as copies:
+        expected = trace_of(copies["top"])
+    with scenarios_of_module(compilation.module, sibling_modules(compilation)) as scenarios:
+        assert trace_of(scenarios["top"]) == expected
+    assert '"status":"success"' in expected[-1]
+
+
+def test_actions_make_no_xml(tmp_path: Path) -> None:
+    write(tmp_path, actions=ACTIONS)
+    (compilation,) = compile_all([tmp_path / "actions.osc"], GivenOptions())
+    assert [each.suffix for each in compilation.outputs()] == [".py", ".map.json"]
+    assert compilation.diagnostics == ()
+
+
 def test_a_package_keeps_its_name(tmp_path: Path) -> None:
     """A module would hide the package that carries out actions, which often is called as it."""
     write(tmp_path, a=USER, kinds=f"{TYPES}\naction truck.tip\n")
     assert compile_all([tmp_path / "kinds.osc"], GivenOptions())[0].module is None
     reason = "that file makes no module by itself"
     assert f"# A copy from kinds.osc: {reason}\n" in module_of(tmp_path / "a.osc")
+    write(tmp_path, actions=f"{ACTIONS}\naction vehicle.honk\n")
+    assert compile_all([tmp_path / "actions.osc"], GivenOptions())[0].module is None
 
 
 # --- builds ---

@@ -8,7 +8,6 @@ from osc2tx import ir
 from osc2tx.backends.py_trees.emitter import emit
 from osc2tx.compilation.needed_modules import sibling_modules
 from osc2tx.module_loading import scenarios_of_module
-from osc2tx_shared.classes import replace
 from tests.end_to_end.importing_files import classes_in, compiled, trace_of, write
 
 HEAD = "import osc.standard.all\nnamespace null use std, stdtypes\n"
@@ -186,12 +185,6 @@ def declared_in(python: str, name: str) -> str:
     return body.partition("\n\n    def ")[0] + "\n"
 
 
-def whole(module: ir.Module) -> ir.Module:
-    """Return a module whose classes have all that their scenarios have."""
-    scenarios = tuple(replace(each, base=None) for each in module.scenarios)
-    return replace(module, scenarios=scenarios, bases=())
-
-
 @pytest.mark.parametrize("case", CASES)
 def test_a_class_has_its_own_members(case: str, tmp_path: Path) -> None:
     source, expected = CASES[case]
@@ -206,7 +199,7 @@ def test_runs_are_those_of_whole_classes(case: str, tmp_path: Path) -> None:
     write(tmp_path, a=HEAD + TOWN + CASES[case][0])
     compilation = compiled(tmp_path / "a.osc")
     assert compilation.ir is not None and compilation.module is not None
-    with scenarios_of_module(emit(whole(compilation.ir))) as scenarios:
+    with scenarios_of_module(emit(ir.without_bases(compilation.ir))) as scenarios:
         expected = {name: trace_of(each) for name, each in scenarios.items()}
     with scenarios_of_module(compilation.module) as scenarios:
         assert "town" not in scenarios, "it has no behavior"
@@ -223,7 +216,7 @@ def test_a_base_in_another_file_is_imported(tmp_path: Path) -> None:
     assert compilation.ir is not None and compilation.module is not None
     assert "from lib.town import Town\n" in compilation.module.python
     assert classes_in(compilation.module.python) == ["Cruise"]
-    with scenarios_of_module(emit(whole(compilation.ir))) as scenarios:
+    with scenarios_of_module(emit(ir.without_bases(compilation.ir))) as scenarios:
         expected = trace_of(scenarios["cruise"])
     with scenarios_of_module(compilation.module, sibling_modules(compilation)) as scenarios:
         assert trace_of(scenarios["cruise"]) == expected

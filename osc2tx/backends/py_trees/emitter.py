@@ -224,8 +224,8 @@ def _root(module: ir.Module) -> PyExpr | None:
 
 
 def own_scenarios(module: ir.Module) -> list[ir.Scenario]:
-    """Return the scenarios of the file itself, without imported ones."""
-    return [scenario for scenario in module.scenarios if not scenario.is_imported]
+    """Return the scenarios of the file itself, without imported ones, and without actions."""
+    return [each for each in module.scenarios if not each.is_imported and not each.is_action]
 
 
 def main_scenario(module: ir.Module) -> ir.Scenario | None:
@@ -258,7 +258,8 @@ def _is_given(declaration: ir.Declaration) -> bool:
 
 def _policies(module: ir.Module) -> Iterator[str]:
     """Yield the settings that decide the meaning of its trees, where they have such members."""
-    nodes = [n for each in own_scenarios(module) for n in ir.walk_behaviors(each.body)]
+    own = (each for each in module.scenarios if not each.is_imported)
+    nodes = [node for each in own for node in ir.walk_behaviors(each.body)]
     if any(isinstance(node, ir.OneOf) for node in nodes):
         yield ONE_OF_POLICIES[module.one_of]
     if is_first_come(module):
@@ -266,22 +267,20 @@ def _policies(module: ir.Module) -> Iterator[str]:
 
 
 def _docstring(module: ir.Module) -> tuple[PyDocLine, ...]:
-    own: Sequence[ir.AbstractScenario | ir.UserType | ir.UserEnum | ir.UserModifier]
-    bases = [each for each in module.bases if not each.is_imported]
-    own = [*bases, *own_scenarios(module)]
-    words = ("Scenario", "Scenarios")
-    if not own:
-        own = [t for t in module.types if is_own(t, module)]
-        own += [e for e in module.enums if is_own(e, module)]
-        words = ("Type", "Types")
-    if not own:
-        own = [each for each in module.modifiers if is_own(each, module)]
-        words = ("Modifier", "Modifiers")
-    names = ", ".join(f"`{each.name}`" for each in own)
+    own = [each for each in declarations(module) if is_own(each, module)]
+    composed = [each for each in own if isinstance(each, ir.AbstractScenario)]
+    kinds: dict[str, Sequence[Declared]] = {
+        "Scenario": [each for each in composed if not each.is_action],
+        "Action": [each for each in composed if each.is_action],
+        "Type": [each for each in own if isinstance(each, ir.UserType | ir.UserEnum)],
+        "Modifier": [each for each in own if isinstance(each, ir.UserModifier)],
+    }
+    word, named = next((kind, found) for kind, found in kinds.items() if found)
+    names = ", ".join(f"`{each.name}`" for each in named)
     about = ("", *module.comments) if module.comments else ()
     settings = (f"OpenSCENARIO DSL {module.standard}, dialect {module.dialect}", *_policies(module))
     lines = (
-        f"{words[len(own) > 1]} {names}.",
+        f"{word}{'s' * (len(named) > 1)} {names}.",
         *about,
         "",
         f"Made by osc2tx from {module.source}: edit the scenario, not this module.",

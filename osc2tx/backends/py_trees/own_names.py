@@ -136,17 +136,15 @@ def declarations(module: ir.Module) -> tuple[Declared, ...]:
 
 
 def has_module(module: ir.Module) -> bool:
-    """Return whether a file makes a module: one with scenarios does, and one with types.
+    """Return whether a file makes a module: one that declares anything else than units does.
 
     One that declares actions for a package to carry out needs scenarios for it: the package may
     have the name of the file, and the module would hide it.
     """
     own = [each for each in declarations(module) if is_own(each, module)]
-    has_scenario = any(isinstance(each, ir.AbstractScenario) for each in own)
-    return has_scenario or (
-        any(isinstance(each, ir.UserType | ir.UserEnum | ir.UserModifier) for each in own)
-        and not any(isinstance(each, ir.UserAction) for each in own)
-    )
+    of_package = any(isinstance(each, ir.UserAction) for each in own)
+    scenarios = (each for each in own if isinstance(each, ir.AbstractScenario))
+    return any(not each.is_action for each in scenarios) or (bool(own) and not of_package)
 
 
 def own_names(module: ir.Module) -> NameTable:

@@ -165,9 +165,10 @@ def _variables(ctx: Context) -> xml.VariableDeclarations | None:
 def entry_scenarios(module: ir.Module) -> tuple[ir.Scenario, ...]:
     """Return the scenarios that are written down: those of the file that can begin a run.
 
-    One that others invoke, and to which they have to give values, is a part of theirs.
+    An action is a part of scenarios. So is a scenario that others invoke, and to which they have to
+    give values.
     """
-    own = (scenario for scenario in module.scenarios if not scenario.is_imported)
+    own = (each for each in module.scenarios if not each.is_imported and not each.is_action)
     return tuple(
         each
         for each in own

@@ -1,4 +1,4 @@
-"""Findings of earlier builds: documents are played again only if the same is not played as before."""
+"""Findings of earlier builds: a document is played again only if another run is due."""
 
 import json
 import shutil
