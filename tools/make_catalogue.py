@@ -162,7 +162,7 @@ def _abstract(actions: Declarations, classes: Mapping[str, Any]) -> Iterator[str
     bases = {each.base for each in actions.values()}
     for name, each in actions.items():
         if each.word not in ("", *WORDS):
-            yield f"action {name}: `#! {each.word}` is none of {', '.join(WORDS)}"
+            yield f"action {name}: `#! {each.word}` is not one of {', '.join(WORDS)}"
         if each.word == "abstract" and name in classes:
             yield f"action {name}: the library calls it abstract, but the runtime has a class of it"
         if each.word == "abstract" and name not in bases:

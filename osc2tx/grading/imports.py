@@ -30,7 +30,7 @@ MOST_ACTOR_STEPS = 8_000
 MOST_EVENTS = 400
 """Of documents with more there is no run."""
 
-_END_OF_ROAD = re.compile(r"(\w+) has come to the end of lane ")
+_END_OF_ROAD = re.compile(r"(\w+) has reached the end of lane ")
 
 
 @dataclass(frozen=True)

@@ -32,5 +32,5 @@ def to_int(text: str) -> int:
 
 def _plain(text: str) -> str:
     if "_" in text or not text.isascii():
-        raise ValueError(f"{text!r} is no number")
+        raise ValueError(f"{text!r} is not a number")
     return text

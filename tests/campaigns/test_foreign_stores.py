@@ -73,18 +73,18 @@ def use_all(place: Path) -> None:
     ["../x.py", "/tmp/x.py", "a/../../x.py", "..\\x.py", "C:\\x.py", "c:x.py", "", "a//b.py", "."],
 )
 def test_modules_stay_in_their_folder(name: str, place: Path, tmp_path: Path) -> None:
-    with pytest.raises(SettingsError, match="is no path of a module"):
+    with pytest.raises(SettingsError, match="is not the path of a module"):
         Modules({"case.py": "", name: "print()"})
     change_plan(place, lambda plan: plan["files"].update({name: "print()"}))  # type: ignore[attr-defined]
     before = sorted(tmp_path.iterdir())
-    with Store(place) as store, pytest.raises(SettingsError, match="is no path of a module"):
+    with Store(place) as store, pytest.raises(SettingsError, match="is not the path of a module"):
         replay_row(store, 1, None, None)
     assert sorted(tmp_path.iterdir()) == before
 
 
 def test_the_module_itself_stays_too() -> None:
     modules = Modules({"case.py": ""})
-    with pytest.raises(SettingsError, match="is no module of the campaign"):
+    with pytest.raises(SettingsError, match="is not a module of the campaign"):
         modules.load("../case.py")
     modules.close()
 

@@ -239,7 +239,7 @@ def test_own_measures_are_found_by_their_entry_point(
     result = executor.run(Row(0, 0))
     executor.close()
     assert result.measures == {"steps": float(result.steps)}
-    with pytest.raises(SettingsError, match="there is no such measure; there is: min_ttc"):
+    with pytest.raises(SettingsError, match="there is no such measure; available: min_ttc"):
         measures_by_name(["min_tttc"])
 
 

@@ -116,7 +116,7 @@ def test_the_next_run_repairs_what_a_killed_one_left(
     following = module(server.port, tmp_path / "next.jsonl")
     _, errors = following.communicate()
     assert following.returncode == 0, errors
-    said = "CARLA: put back what a killed run had changed: camera, own actors, settings\n"
+    said = "CARLA: restored what an interrupted run had changed: camera, own actors, settings\n"
     assert said in errors
     assert not server.ask("stand_in_synchronous") and server.ask("stand_in_actors") == {}
     assert server.ask("stand_in_spectator")[0] == [0.0, 0.0, 0.0]

@@ -112,5 +112,5 @@ def test_a_library_that_dies_in_a_run(tmp_path: Path, monkeypatch: pytest.Monkey
         assert "its last words: terminate called after throwing" in died.stderr
         following = subprocess.run(run, cwd=ROOT, capture_output=True, text=True)
         assert following.returncode == 0, following.stderr
-        assert "put back what a killed run had changed" in following.stderr
+        assert "restored what an interrupted run had changed" in following.stderr
         assert not server.ask("stand_in_synchronous") and server.ask("stand_in_actors") == {}

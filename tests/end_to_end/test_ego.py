@@ -70,4 +70,6 @@ def test_without_expectations_its_actions_are_errors_with_lines(follow: type[Sce
     line = 1 + PAGE.read_text().split("# follow.osc")[1].partition("hero.change_speed")[0].count(
         "\n"
     )
-    assert f"case.osc:{line}: hero change_speed: hero is driven from outside" in str(caught.value)
+    assert f"case.osc:{line}: hero change_speed: hero is under external control" in str(
+        caught.value
+    )

@@ -69,8 +69,8 @@ TIMEOUTS = [
         20.0,
         1,
         "wait rise(ego.speed > 1 * mps) (case.osc:{line}); wait rise(ego.speed > 1 * mps)"
-        " (case.osc:{line}) never happened: its condition held from the start, and only a change"
-        " counts",
+        " (case.osc:{line}) never occurred: its condition was true from the start, and only a"
+        " change counts",
     ),
     Case(
         "an action until an edge of what is true already",
@@ -78,7 +78,7 @@ TIMEOUTS = [
         20.0,
         1,
         "ego.keep_speed() (case.osc:{line}); until fall(ego.speed > 60 * mps) (case.osc:{until})"
-        " never happened: its condition held from the start, and only a change counts",
+        " never occurred: its condition was true from the start, and only a change counts",
     ),
 ]
 """What just never comes about: the time of the run is over."""
@@ -150,8 +150,8 @@ ERRORS: list[tuple[Case, type[ScenarioError]]] = [
             "npc.drive(duration: 1s) with:\n    lane(9, at: start)\n    position(50m, at: start)",
             0.0,
             1,
-            "npc: map highway has no free place on a road with a lane 9 from the right, 50 m from"
-            " its start",
+            "npc: map highway has no free position on a road with a lane 9 from the right, 50 m"
+            " from its start",
             beside=True,
         ),
         PlacementError,

@@ -50,7 +50,7 @@ def test_the_lane_it_is_in_is_none_to_change_to(load: Load, tmp_path: Path) -> N
     text = TEXT.format(change=change).replace("lane(2, at: start)", "lane(4, at: start)")
     trace = run(load(emit(asam(text, tmp_path))), RunSettings())
     assert trace.status == "failure"
-    assert "in the lane to change to already, lane -1" in trace.reason
+    assert "already in lane -1, the target of the lane change" in trace.reason
 
 
 @pytest.mark.parametrize(("change", "y"), CHANGES.items())

@@ -67,7 +67,7 @@ ENDS_BEFORE = {
     "scenarios/hello_world.osc": "a map of CARLA",
     "scenarios/capabilities/C33_custom_action.osc": "a package",
     "scenarios/capabilities/C34_conflict_reported.osc": "two actions of one slot",
-    "tests/golden/py_trees/calls/input.osc": "code from outside",
+    "tests/golden/py_trees/calls/input.osc": "external code",
     "tests/golden/py_trees/constraints/input.osc": "a value",
     "tests/golden/py_trees/names/input.osc": "a map that is not there",
     "tests/golden/py_trees/own_actions/input.osc": "a package",

@@ -104,7 +104,7 @@ def test_a_settings_file_may_not_say_anything(package: Path, shell: Shell) -> No
 def test_a_world_that_nobody_has(cut_in: type[Scenario], capsys: Printed) -> None:
     assert main(cut_in, argv=["--world", "nowhere"]) == 2
     assert capsys.readouterr().err.startswith(
-        "error: --world nowhere: there is no such world; there is: "
+        "error: --world nowhere: there is no such world; available: "
     )
 
 
@@ -116,7 +116,7 @@ def test_a_package_that_does_not_load(package: Path) -> None:
         find_world("sluggish")
     (package / "my_world.py").write_text("WORLD = 1\n")
     sys.modules.pop("my_world", None)
-    with pytest.raises(SettingsError, match="my_world:WORLD is no WorldType"):
+    with pytest.raises(SettingsError, match="my_world:WORLD is not a WorldType"):
         find_world("sluggish")
 
 

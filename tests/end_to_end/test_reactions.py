@@ -177,7 +177,7 @@ def test_a_conditional_subtype_is_told_by_its_member(load: Load, tmp_path: Path)
     car = load(emit(compiled(fixed.replace("== V", "== car"), tmp_path)))
     assert times(run(car, RunSettings(max_time=2.0)), "big") == []
     unsaid = load(emit(compiled(text, tmp_path)))
-    with pytest.raises(ScenarioError, match="nothing says the vehicle_category of ego"):
+    with pytest.raises(ScenarioError, match="the vehicle_category of ego is not stated"):
         run(unsaid)
 
 

@@ -317,7 +317,7 @@ def test_cycles_of_a_file(load: Load, tmp_path: Path) -> None:
     ("text", "reason"),
     [
         ("[{]", "cannot be read"),
-        ("{}", "it is no list of cycles"),
+        ("{}", "it is not a list of cycles"),
         ('[{"group": "1"}]', "a cycle has no phases"),
         ('[{"group": "1", "phases": [{"state": "go", "time": 1}]}]', "a phase has no duration"),
         (

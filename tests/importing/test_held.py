@@ -52,7 +52,7 @@ def test_a_run_up_to_the_end_of_a_road_is_no_exact_one() -> None:
     assert json.loads(report.to_json())["measured"]["until_end_of_road_of"] == "ego"
 
 
-END = "ego.drive() failed at 5 s: {} has come to the end of lane -1 of road 2"
+END = "ego.drive() failed at 5 s: {} has reached the end of lane -1 of road 2"
 
 
 @pytest.mark.parametrize(

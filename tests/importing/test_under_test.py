@@ -83,4 +83,4 @@ def test_nothing_else_is_commanded_of_it(tmp_path: Path, monkeypatch: pytest.Mon
     words = ("run", tmp_path / "two_cars.osc", "--ego", "other=my_other_drivers:Braking")
     result = command(*words)
     assert result.return_value != 0
-    assert "other change_speed: other is driven from outside" in result.output
+    assert "other change_speed: other is under external control" in result.output

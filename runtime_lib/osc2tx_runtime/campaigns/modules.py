@@ -53,7 +53,7 @@ class Modules:
             SettingsError: It is not one of the modules.
         """
         if name not in self._files or not name.endswith(".py"):
-            raise SettingsError(f"{name!r} is no module of the campaign")
+            raise SettingsError(f"{name!r} is not a module of the campaign")
         place = Path(self._folder.name, name)
         folders = [str(place.parent), *map(str, place.parent.parents)]
         root = folders.index(self._folder.name)
@@ -83,7 +83,7 @@ def _require_inside(name: str) -> None:
     place = PureWindowsPath(name)  # knows the separators and drives of all platforms
     parts = name.replace("\\", "/").split("/")
     if place.anchor or "\0" in name or any(part in ("", ".", "..") for part in parts):
-        raise SettingsError(f"{name!r} is no path of a module inside of the campaign")
+        raise SettingsError(f"{name!r} is not the path of a module inside the campaign")
 
 
 def scenarios_of(module: ModuleType) -> dict[str, type[Scenario]]:
@@ -105,5 +105,5 @@ def scenario_in(scenarios: Mapping[str, type[Scenario]], name: str) -> type[Scen
         SettingsError: It does not exist.
     """
     if name not in scenarios:
-        raise SettingsError(f"there is no scenario `{name}`; there is: {', '.join(scenarios)}")
+        raise SettingsError(f"there is no scenario `{name}`; available: {', '.join(scenarios)}")
     return scenarios[name]

@@ -128,7 +128,7 @@ class RoutableDot:
         Raises:
             ScenarioError: A point has no start.
         """
-        raise ScenarioError("a point is no route with a begin and an end: convert it to one")
+        raise ScenarioError("a point is not a route with a begin and an end: convert it to one")
 
     def end_point(self) -> RoutePoint:
         """Its end; as `start_point`."""
@@ -163,7 +163,7 @@ class OdrPoint(RoutableDot):
         try:
             return int(self.lane_id)
         except ValueError:
-            raise PlacementError(f"`{self.lane_id}` is no lane of OpenDRIVE") from None
+            raise PlacementError(f"`{self.lane_id}` is not a lane id of OpenDRIVE") from None
 
 
 @dataclass(frozen=True, slots=True)

@@ -177,7 +177,7 @@ class OwnShape(Generic[ShapeT]):
     def _value(self, time: float) -> float:
         value = self._asked(self._compute, time)
         if not abs(value) <= LARGEST:
-            raise ScenarioError(f"`compute` of the shape is {value:g}, which no world has")
+            raise ScenarioError(f"`compute` of the shape is {value:g}, which is out of range")
         return value
 
     def _asked(self, method: Callable[..., float], *arguments: float) -> float:

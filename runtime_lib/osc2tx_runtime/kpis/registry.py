@@ -115,14 +115,14 @@ def _installed(name: str) -> Callable[[], Measure]:
     entries = {entry.name: entry for entry in entry_points(group=ENTRY_POINTS)}
     if name not in entries:
         known = ", ".join([*MEASURES, *sorted(entries)])
-        raise SettingsError(f"--kpi {name}: there is no such measure; there is: {known}")
+        raise SettingsError(f"--kpi {name}: there is no such measure; available: {known}")
     try:
         with OwnCode(f"--kpi {name}: {entries[name].value}:"):
             found: Callable[[], Measure] = entries[name].load()
     except ScenarioError as error:
         raise SettingsError(error.message) from error
     if not callable(found):
-        raise SettingsError(f"--kpi {name}: {entries[name].value} is no class")
+        raise SettingsError(f"--kpi {name}: {entries[name].value} is not a class")
     return found
 
 

@@ -250,7 +250,7 @@ class ExecutionContext:
             changing = {event.name for event in self._posted}
             names = ", ".join(sorted(changing.union(v.name for v in self._assigned)))
             raise ScenarioError(
-                f"events chase each other at {self.time:.3f} s without time going on"
+                f"events cause each other without end at {self.time:.3f} s"
                 + (f": {names}" if names else "")
             )
         if self._posted or self._assigned:
@@ -309,7 +309,9 @@ class ExecutionContext:
     def claim(self, actor_id: str, slot: str, owner: Owner) -> None:
         """Make an action the owner of a slot; two live owners at a settled instant conflict."""
         if slot not in (LONGITUDINAL, LATERAL):
-            raise ScenarioError(f"{owner.name} claims {slot!r:.40}, no slot", owner.source or None)
+            raise ScenarioError(
+                f"{owner.name} claims {slot!r:.40}, which is not a slot", owner.source or None
+            )
         self.slots.claim((actor_id, slot), owner)
 
     def release(self, actor_id: str, slot: str, owner: Owner, momentary: bool = False) -> None:
@@ -334,7 +336,7 @@ class ExecutionContext:
         other = self._left.setdefault(actor_id, model)
         if other != model:
             names = ", ".join(sorted((other, model)))
-            raise ScenarioError(f"{actor_id} gets two behavioral models at once: {names}")
+            raise ScenarioError(f"{actor_id} is assigned two behavioral models at once: {names}")
         self.slots.leave((actor_id, slot), command)
 
     def command(self, actor_id: str, slot: str, owner: Owner, command: Command) -> None:

@@ -90,7 +90,7 @@ class RunSettings:
             )
         for name, seconds in self.signal.items():
             if not (math.isfinite(seconds) and seconds >= 0):
-                raise SettingsError(f"--signal {name}: {seconds} is no time of a run")
+                raise SettingsError(f"--signal {name}: {seconds} is not a time of a run")
 
 
 def check_known(option: str, what: str, given: Any, known: Any) -> None:

@@ -134,7 +134,7 @@ def _strips(surface: etree._Element, attributes: Attributes) -> SurfaceStrips:
     for element in surface.iter("strip"):
         number = attributes.integer(element, "id")
         if abs(number) not in (1, 2):
-            raise attributes.error(element, f"id {number} is none of 1, 2, -1 and -2")
+            raise attributes.error(element, f"id {number} is not one of 1, 2, -1 and -2")
         width = element.find("width")
         strips[number] = Strip(
             (

@@ -152,7 +152,7 @@ def _number(given: Mapping[str, str], names: tuple[str, ...], default: float) ->
     try:
         return to_float(text)
     except ValueError:
-        message = f"`+{names[0]}={text}` of its `geoReference` is no number"
+        message = f"`+{names[0]}={text}` of its `geoReference` is not a number"
         raise GeoReferenceError(message) from None
 
 

@@ -130,7 +130,9 @@ def _lane(element: etree._Element, span: _Span, attributes: Attributes) -> Lane:
     lane.heights = _heights(heights)
     lane.level = element.get("level") in ("true", "1")
     if element.get("direction") == "both":
-        attributes.remark(element, "has direction `both`: traffic runs as on others of its side")
+        attributes.remark(
+            element, "has direction `both`: traffic runs as in the other lanes of its side"
+        )
     return lane
 
 

@@ -72,7 +72,7 @@ def pack(content: MapContent) -> Packed:
 def _fields(name: str) -> tuple[str, ...]:
     """Return the fields of a class, which has slots or is compiled."""
     if name not in CLASSES:
-        raise PackingError(f"`{name}` is no part of a map")
+        raise PackingError(f"`{name}` is not a part of a map")
     descriptors = (MemberDescriptorType, GetSetDescriptorType)
     members = vars(CLASSES[name]).items()
     return tuple(field for field, found in members if isinstance(found, descriptors))

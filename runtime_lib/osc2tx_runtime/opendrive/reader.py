@@ -201,7 +201,9 @@ def _plan_view(road: etree._Element, attributes: Attributes) -> ReferenceLine:
     for (start, segment), (following, _) in pairwise([*kept, (length, kept[-1][1])]):
         end = start + segment.length
         if following - end > ROUNDING:  # a curve is not extended beyond its end
-            told = f"has no geometry from s = {end:g} m to {following:g} m: it goes straight on"
+            told = (
+                f"has no geometry from s = {end:g} m to {following:g} m: a straight line is assumed"
+            )
             attributes.remark(road, told)
             kept.append((end, Line(*segment.at(segment.length)[:3], following - end)))
     kept.sort(key=lambda piece: piece[0])
@@ -242,7 +244,7 @@ def _junction(element: etree._Element, attributes: Attributes) -> Junction:
     connections = tuple(_connection(e, kind, attributes) for e in real)
     if len(real) < len(found):
         number = len(found) - len(real)
-        attributes.remark(element, f"has {number} connections without a road, which nobody takes")
+        attributes.remark(element, f"has {number} connections without a road, which are ignored")
     controllers = tuple(attributes.text(e, "id") for e in element.iterchildren("controller"))
     return Junction(
         attributes.text(element, "id"), element.get("name", ""), kind, connections, controllers

@@ -103,7 +103,7 @@ _WORDS: Mapping[str, Callable[[Json], str]] = {
     "size": _size,
     "jack_knife": lambda line: f"at {_values(line.get('angle'))}° to {text(line.get('tow'))}",
     "simulator_collision": lambda line: f"{text(line.get('actor'))} and {text(line.get('other'))}",
-    "simulator_displaced": lambda line: f"{_values(line.get('distance'))} m from its place",
+    "simulator_displaced": lambda line: f"{_values(line.get('distance'))} m from its position",
     "simulator_removed": lambda line: "removed by the simulator",
     "simulator_size": _box,
     "criterion": lambda line: text(line.get("what")),

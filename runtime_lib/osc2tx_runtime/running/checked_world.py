@@ -64,7 +64,7 @@ class _CheckedWorld:
         found = self._calls.ask(name, lambda: getattr(self._world, name), Any)
         wanted = ANSWERS.get(name, Any)
         if name in METHODS and not callable(found):
-            self._calls.refuse(name, "is no method")
+            self._calls.refuse(name, "is not a method")
         if name in METHODS or (callable(found) and name not in ATTRIBUTES):
             return self._method(name, found, wanted)
         return self._calls.ask(name, lambda: found, wanted)

@@ -130,7 +130,7 @@ def choose_scenario(scenarios: Sequence[type[Scenario]], wanted: str | None) -> 
     names = ", ".join(by_name) or "none"
     if wanted is not None:
         if wanted not in by_name:
-            raise SettingsError(f"there is no scenario `{wanted}`; there is: {names}")
+            raise SettingsError(f"there is no scenario `{wanted}`; available: {names}")
         return by_name[wanted]
     for name in ("top", "main"):
         if name in by_name:

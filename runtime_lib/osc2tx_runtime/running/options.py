@@ -116,7 +116,7 @@ OPTIONS: tuple[Option, ...] = (
     Option(
         "world",
         "NAME",
-        "where it runs; --world NAME --help has its options",
+        "world that executes the scenario; its options: --world NAME --help",
         str.strip,
         default="embedded",
     ),
@@ -131,7 +131,7 @@ OPTIONS: tuple[Option, ...] = (
     Option(
         "physics",
         "warn|fail",
-        "what to do about motions that tyres cannot do",
+        "reaction to motions beyond the grip limit",
         parse_physics,
         default="warn",
     ),
@@ -145,14 +145,18 @@ OPTIONS: tuple[Option, ...] = (
     Option(
         "fail-on",
         "collision|off_road|red_light",
-        "end with a failure if this happens, whatever the scenario says",
+        "fail the run if this happens, whatever the scenario states",
         parse_fail_on,
         _joined,
     ),
-    Option("signal", "NAME@SECONDS", "send the event NAME from outside", parse_signal, dict),
+    Option("signal", "NAME@SECONDS", "emit the event NAME at a time", parse_signal, dict),
     Option("spawn", "ACTOR=ROAD,LANE,S", "start position of an actor", parse_spawn, dict),
     Option(
-        "destination", "ACTOR=GOAL", "where a vehicle goes: actor or R,L,S", parse_destination, dict
+        "destination",
+        "ACTOR=GOAL",
+        "destination of a vehicle: actor or R,L,S",
+        parse_destination,
+        dict,
     ),
     Option("set", "NAME=VALUE", "value of a parameter: v=60kph, or in SI units", parse_set, dict),
     Option("seed", "N", "seed of all that is sampled", parse_seed, default=0),

@@ -87,9 +87,9 @@ def problems_of(
     if action.registered.is_momentary:
         if is_start and action.registered.name in STARTS and "driver_starts" in able:
             return
-        yield f"{action.action_name}: {action.actor.id} is driven from outside"
+        yield f"{action.action_name}: {action.actor.id} is under external control"
     elif not context.settings.expect:
         yield (
-            f"{action.action_name}: {action.actor.id} is driven from outside; with --expect the"
+            f"{action.action_name}: {action.actor.id} is under external control; with --expect the"
             " action is expected of it"
         )

@@ -151,9 +151,9 @@ def recorded_run(lines: Iterable[Line]) -> RecordedRun:
         elif kind == "override" and line["what"] == "ended":
             overridden.add((line["t"], line["name"]))
     if header is None:
-        raise ValueError("the first line is no header")
+        raise ValueError("the first line is not a header")
     if not nodes:
-        raise ValueError("it is not whole: it has no tree")
+        raise ValueError("it is incomplete: it has no tree")
     return RecordedRun(header, _States(lines, dt), nodes, frozenset(failed), frozenset(overridden))
 
 
@@ -248,7 +248,7 @@ def _runs(
         for node, line in zip(nodes, run.nodes, strict=False)
     )
     if not same:
-        raise InputError("the trace is not one of this scenario: its tree is another one")
+        raise InputError("the trace does not belong to this scenario: its tree differs")
     begins: dict[int, list[Action]] = {}
     ends: dict[int, list[tuple[Action, str]]] = {}
     dt = float(run.header["dt"])

@@ -286,7 +286,9 @@ class EmbeddedWorld:
         member = self._member(actor)
         is_start = self._scene.step == 0 and "driver_starts" in self.capabilities()
         if not member.follows and not is_start:
-            raise ScenarioError(f"{actor} is driven from outside, so nothing can be assigned to it")
+            raise ScenarioError(
+                f"{actor} is under external control, so nothing can be assigned to it"
+            )
         for name, value, wanted in (
             ("speed", speed, float | None),
             ("acceleration", acceleration, float | None),

@@ -31,14 +31,14 @@ def find_world(name: str) -> WorldType:
     entries = {entry.name: entry for entry in entry_points(group=ENTRY_POINTS)}
     if name not in entries:
         known = ", ".join(sorted({EMBEDDED.name, *entries}))
-        raise SettingsError(f"--world {name}: there is no such world; there is: {known}")
+        raise SettingsError(f"--world {name}: there is no such world; available: {known}")
     try:
         with OwnCode(f"--world {name}: {entries[name].value}:"):
             found: object = entries[name].load()
     except ScenarioError as error:
         raise SettingsError(error.message) from error
     if not isinstance(found, WorldType):
-        raise SettingsError(f"--world {name}: {entries[name].value} is no WorldType")
+        raise SettingsError(f"--world {name}: {entries[name].value} is not a WorldType")
     if problem := _problem_of(found):
         raise SettingsError(f"--world {name}: {entries[name].value}: {problem}")
     return found

@@ -77,7 +77,7 @@ def parse_seconds(text: str, example: str) -> float:
     """Read `1`, `1.5s` or `500ms` as seconds."""
     found = NUMBER_AND_UNIT.fullmatch(text.strip())
     if found is None or found[2] not in SECONDS:
-        raise SettingsError(f"`{text}` is no time: write seconds, as in {example}")
+        raise SettingsError(f"`{text}` is not a time: write seconds, as in {example}")
     return float(found[1]) * SECONDS[found[2]]
 
 

@@ -87,7 +87,7 @@ def test_false_origin_scale_and_offset() -> None:
         ("+proj=tmerc +datum=potsdam", r"not on WGS 84 \(\+datum\)"),
         ("+proj=tmerc +ellps=bessel", r"not on WGS 84 \(\+ellps\)"),
         ("+proj=tmerc +units=us-ft", "not in metres"),
-        ("+proj=tmerc +lat_0=north", "`\\+lat_0=north` of its `geoReference` is no number"),
+        ("+proj=tmerc +lat_0=north", "`\\+lat_0=north` of its `geoReference` is not a number"),
         ("+proj=tmerc +R=6371000", r"`\+R=6371000`, which is not understood"),
         ("+proj=tmerc +a=6377397.155", r"`\+a=6377397.155`"),
         ("+proj=tmerc +a=6378137 +rf=299.15", r"`\+rf=299.15`"),

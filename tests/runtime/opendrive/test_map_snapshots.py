@@ -236,5 +236,5 @@ def test_the_oldest_are_forgotten(town: Path, cache: Path) -> None:
 
 
 def test_what_is_in_no_map_is_not_packed(own: Callable[[str], RoadMap]) -> None:
-    with pytest.raises(PackingError, match="`RoadMap` is no part of a map"):
+    with pytest.raises(PackingError, match="`RoadMap` is not a part of a map"):
         pack(own("highway"))  # type: ignore[arg-type]

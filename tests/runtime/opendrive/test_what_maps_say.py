@@ -121,7 +121,7 @@ def test_a_road_that_is_longer_than_its_geometry() -> None:
     arc = '<geometry s="0" x="0" y="0" hdg="0" length="50"><arc curvature="0.02"/></geometry>'
     road_map = make_map(road_text(arc, 100.0))
     (remark,) = road_map.remarks
-    told = "has no geometry from s = 50 m to 100 m: it goes straight on"
+    told = "has no geometry from s = 50 m to 100 m: a straight line is assumed"
     assert remark == f"line 1: `road` 1 {told}"
     x, y, h, curvature = road_map.roads["1"].reference.at(80.0)
     assert (h, curvature) == (pytest.approx(1.0), 0.0)
@@ -145,11 +145,14 @@ def test_what_is_read_otherwise_than_it_is_meant_is_named() -> None:
     )
     assert road.remarks == (
         "line 1: `road` 1 has a cross-section and superelevation: their heights are added up",
-        "line 1: `junction` 7 has 1 connections without a road, which nobody takes",
+        "line 1: `junction` 7 has 1 connections without a road, which are ignored",
     )
     both = LANES.replace('id="-1" type', 'id="-1" direction="both" type')
     (remark,) = make_map(road_text(LINE, 100.0, lanes=both)).remarks
-    assert remark == "line 1: `lane` -1 has direction `both`: traffic runs as on others of its side"
+    assert (
+        remark
+        == "line 1: `lane` -1 has direction `both`: traffic runs as in the other lanes of its side"
+    )
     assert map_warnings(make_map(road_text(LINE, 100.0, lanes=both)))[0] == f"map small: {remark}"
 
 

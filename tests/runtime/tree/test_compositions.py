@@ -168,7 +168,7 @@ def test_until_ends_a_running_child_with_success() -> None:
 def test_until_passes_the_end_of_its_child_on() -> None:
     done = run(Until(Task(HERO, 2), elapsed(9))).outcome
     assert (done.status, done.steps) == ("failure", 2)  # it has to go on until then
-    assert "over by itself after 0.1 s, before until elapsed 9 s" in done.reason
+    assert "ended by itself after 0.1 s, before until elapsed 9 s" in done.reason
     assert run(Until(Task(HERO, 2, fails=True), elapsed(9))).outcome.status == "failure"
 
 
@@ -191,7 +191,7 @@ def test_duration(content: Any, duration: Any, status: str, steps: int) -> None:
     done = run(content(duration=duration))
     assert (done.outcome.status, done.outcome.steps) == (status, steps)
     if status == "failure":
-        why = "over after 0.2 s" if steps == 4 else "not finished within 0.3 s"
+        why = "ended after 0.2 s" if steps == 4 else "not finished within 0.3 s"
         assert why in done.outcome.reason
 
 

@@ -77,7 +77,7 @@ def guarded() -> Behaviour:
         ),
         (
             lambda: after(0.1, Quiet("quiet")),
-            "quiet (x.osc:3) failed at 0.100 s: it gives no reason",
+            "quiet (x.osc:3) failed at 0.100 s: no reason is given",
         ),
         (
             lambda: after(0.1, Failure("foreign")),
@@ -112,7 +112,7 @@ def guarded() -> Behaviour:
         ),
         (
             lambda: Parallel("p", On(elapsed(0.1), Quiet("reaction")), Wait(elapsed(1.0))),
-            "reaction (x.osc:3) failed at 0.100 s: it gives no reason",
+            "reaction (x.osc:3) failed at 0.100 s: no reason is given",
         ),
         (guarded, "hero task (x.osc:4) failed at 0.100 s: gave up"),
     ],

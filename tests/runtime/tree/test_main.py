@@ -106,7 +106,7 @@ def test_timeout(capsys: pytest.CaptureFixture[str]) -> None:
             2,
             "waits.osc: error[OSC806]: --signal og: the scenario has no",
         ),
-        (["--dt", "x"], 2, "waits.osc: error[OSC806]: `x` is no time"),
+        (["--dt", "x"], 2, "waits.osc: error[OSC806]: `x` is not a time"),
         (["--trace", "/proc/none/x"], 4, "waits.osc: error[OSC807]: the trace cannot be written"),
     ],
 )

@@ -135,11 +135,13 @@ def test_whatever_it_raises_is_an_error_of_the_scenario(
 def test_a_status_that_is_none(capsys: pytest.CaptureFixture[str], status: Any) -> None:
     told = ended(capsys, on_update=lambda _: status)
     assert told.startswith("own.osc:7: error[OSC801]: ego hooked returns ")
-    assert "no status of a node" in told
+    assert "not a status of a node" in told
 
 
 def test_a_reason_that_is_no_text(capsys: pytest.CaptureFixture[str]) -> None:
-    assert "a reason that is no text" in ended(capsys, on_update=lambda action: action.fail(b"x"))
+    assert "a reason that is not a string" in ended(
+        capsys, on_update=lambda action: action.fail(b"x")
+    )
 
 
 def test_what_it_raises_that_means_ctrl_c_is_ctrl_c(capsys: pytest.CaptureFixture[str]) -> None:
@@ -155,8 +157,8 @@ GARBAGE = [
     (SpeedChange(math.inf), "SpeedChange: target is inf"),
     (SpeedChange(10**400), "SpeedChange: target is a int"),
     (SpeedChange(1e300), "SpeedChange: target is 1e+300"),
-    (SpeedChange("5"), "SpeedChange: target is '5', no number"),  # type: ignore[arg-type]
-    (SpeedChange(True), "SpeedChange: target is True, no number"),
+    (SpeedChange("5"), "SpeedChange: target is '5', not a number"),  # type: ignore[arg-type]
+    (SpeedChange(True), "SpeedChange: target is True, not a number"),
     (SpeedChange(1.0, "fast"), "SpeedChange: profile is 'fast', no one of"),  # type: ignore[arg-type]
     (SpeedChange(1.0, duration=-math.inf), "SpeedChange: duration is -inf"),
     (SpeedChange(1.0, course=3), "SpeedChange: course is 3, no Profile"),  # type: ignore[arg-type]
@@ -164,13 +166,13 @@ GARBAGE = [
     (Careful(KeepGap("npc", True)), "Careful: there is no actor 'npc'"),
     (Arrive(1.0, speed=FollowSpeed("npc")), "Arrive: there is no actor 'npc'"),
     (KeepGap("npc", True), "KeepGap: there is no actor 'npc'"),
-    (KeepLane(), "KeepLane is no command of the longitudinal slot"),
-    (LaneChange(1), "LaneChange is no command of the longitudinal slot"),
-    (Turn(0.1), "Turn is no command of the longitudinal slot"),
-    (Command(), "a Command is no command"),
-    (Own(), "Own is no command of the longitudinal slot"),
-    (None, "a NoneType is no command"),
-    (5.0, "a float is no command"),
+    (KeepLane(), "KeepLane is not a command of the longitudinal slot"),
+    (LaneChange(1), "LaneChange is not a command of the longitudinal slot"),
+    (Turn(0.1), "Turn is not a command of the longitudinal slot"),
+    (Command(), "a Command is not a command"),
+    (Own(), "Own is not a command of the longitudinal slot"),
+    (None, "a NoneType is not a command"),
+    (5.0, "a float is not a command"),
 ]
 
 
@@ -228,7 +230,7 @@ STILL = (0.0, 0.0, 0.0)
     ("answer", "problem"),
     [
         (None, "moved: is None, no Mapping"),
-        ({"npc": Measurement(PLACE, STILL)}, "measures 'npc', which is no actor"),
+        ({"npc": Measurement(PLACE, STILL)}, "measures 'npc', which is not an actor"),
         ({"ego": PLACE}, "ego: is a Pose, no Measurement"),
         ({"ego": Measurement(Pose(math.nan, 0, 0, 0), STILL)}, "ego: pose.x is nan"),
         ({"ego": Measurement(PLACE, (0.0, 0.0))}, "ego: velocity has 2 members"),  # type: ignore

@@ -63,7 +63,7 @@ def test_the_table_fits_the_settings() -> None:
     ("name", "text", "message"),
     [
         ("signal", "go", "--signal go: write NAME@SECONDS, as in --signal go_signal@1s"),
-        ("signal", "go@soon", "`soon` is no time: write seconds, as in --signal go_signal@1s"),
+        ("signal", "go@soon", "`soon` is not a time: write seconds, as in --signal go_signal@1s"),
         ("signal", "go@-1", "the time is negative"),
         ("spawn", "hero", "write ACTOR=ROAD,LANE,S, as in --spawn hero=16,-3,10"),
         ("spawn", "hero=16,x,3", "a lane id and metres along the road"),

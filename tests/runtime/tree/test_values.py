@@ -101,9 +101,9 @@ def test_given_values_count_as_settings_do() -> None:
 def test_given_ranges_are_cut_to_what_is_allowed() -> None:
     values = [Open(RunSettings(seed=s), gap=within(1.0, 5.0), lanes=3).gap for s in range(20)]
     assert all(3.0 <= value <= 5.0 for value in values)
-    with pytest.raises(ScenarioError, match=r"gap: 1 to 2 .* is asked for"):
+    with pytest.raises(ScenarioError, match=r"gap: 1 to 2 .* is requested"):
         Open(gap=within(1.0, 2.0), lanes=3)
-    with pytest.raises(ScenarioError, match=r"gap: at least 4 .* no finite range"):
+    with pytest.raises(ScenarioError, match=r"gap: at least 4 .* not a finite range"):
         Open(gap=at_least(4.0), lanes=3)
 
 

@@ -272,14 +272,14 @@ def test_person_walks_across(run: Run) -> None:
 @pytest.mark.parametrize(
     ("body", "message"),
     [
-        (lambda s: s.a.change_lane(side="up"), "side `up` is none of left, right"),
-        (lambda s: s.a.set_lights(mode="disco"), "mode `disco` is none of off, auto"),
-        (lambda s: s.a.change_speed(target=1.0, rate_profile="fast"), "`fast` is none of none"),
+        (lambda s: s.a.change_lane(side="up"), "side `up` is not one of left, right"),
+        (lambda s: s.a.set_lights(mode="disco"), "mode `disco` is not one of off, auto"),
+        (lambda s: s.a.change_speed(target=1.0, rate_profile="fast"), "`fast` is not one of none"),
         (lambda s: s.a.change_speed(speed(9.0), target=5.0), "does not take the modifier Speed"),
         (lambda s: s.a.drive(lane(1), keep_lane()), "lane and keep_lane constrain the same motion"),
         (
             lambda s: s.a.change_space_gap(target=1.0, direction="up", reference=s.b),
-            "direction `up` is none of ahead, behind, left",
+            "direction `up` is not one of ahead, behind, left",
         ),
     ],
 )
@@ -309,4 +309,4 @@ def test_dead_end_fails_the_action(run: Run) -> None:
 
     done = run(End, **settings)
     assert done.result.status == "failure"
-    assert "a has come to the end of lane -3 of road 1" in done.result.reason
+    assert "a has reached the end of lane -3 of road 1" in done.result.reason

@@ -175,12 +175,12 @@ def test_a_way_in_a_time_with_a_speed_at_its_end(run: Run, dt: float) -> None:
     [
         (
             lambda s: s.a.drive(position(10.0, ahead_of=s.b, at="end"), duration=2.0),
-            ") (two_cars.osc) failed at 2.000 s: when its time is over it is 46.0 m short of"
-            " its place; it can do 4 and -8 m/s^2",
+            ") (two_cars.osc) failed at 2.000 s: at the end of its duration it is 46.0 m short of"
+            " its target position; its limits are 4 and -8 m/s^2",
         ),
         (
             lambda s: s.a.drive(distance(100.0), speed(40.0, at="end"), duration=3.0),
-            "m short of its place; it can do 4 and -8 m/s^2",
+            "m short of its target position; its limits are 4 and -8 m/s^2",
         ),
     ],
 )
@@ -208,14 +208,14 @@ def test_beside_another_at_the_end(run: Run, dt: float) -> None:
 
 def test_a_lateral_place_that_takes_longer(run: Run) -> None:
     done = run(scenario(lambda s: s.a.drive(lateral(3.0, side_of=s.b, at="end"), duration=1.0)))
-    assert "from its place beside b" in done.result.reason
+    assert "from its position beside b" in done.result.reason
 
 
 def test_limits_hold_for_a_speed_at_the_end(run: Run) -> None:
     done = run(
         scenario(lambda s: s.a.drive(speed(20.0, at="end"), physical_movement(), duration=2.0))
     )
-    assert "10.0 to 20.0 m/s in 2 s takes more than 4 m/s^2" in done.result.reason
+    assert "a change from 10.0 to 20.0 m/s in 2 s requires more than 4 m/s^2" in done.result.reason
 
 
 # --- the end of a phase ------------------------------------------------------------------------
@@ -266,7 +266,7 @@ def test_a_goal_that_is_not_there_at_the_end_of_the_phase(run: Run) -> None:
         return Parallel("phase", act, s.b.drive(), duration=2.0)
 
     done = run(scenario(body))
-    assert "(two_cars.osc) failed at 2.000 s: when its time is over" in done.result.reason
+    assert "(two_cars.osc) failed at 2.000 s: at the end of its duration" in done.result.reason
 
 
 def test_a_path_ends_before_its_phase(run: Run) -> None:

@@ -50,7 +50,7 @@ def test_change_position_across_the_grass(run: Run) -> None:
 def test_change_position_behind_is_no_way(run: Run) -> None:
     done = run(scenario(lambda s: s.a.change_position(target_xyz=Point(20.0, -8.75))))
     assert done.result.status == "failure"
-    assert "no way along lanes leads" in done.result.reason
+    assert "no route along lanes leads" in done.result.reason
 
 
 def test_a_person_walks_to_a_place(run: Run) -> None:

@@ -138,7 +138,7 @@ def test_what_nothing_says(load_map: Load) -> None:
         Crossing().line  # noqa: B018
     crossing = Crossing()
     solve(load_map("crossing"), crossing, *walks(), start_s_coord=20.0)
-    with pytest.raises(ScenarioError, match="nothing says the width of the crossing of road 1"):
+    with pytest.raises(ScenarioError, match="the width of the crossing of road 1 is not stated"):
         crossing.width  # noqa: B018
 
 

@@ -74,7 +74,7 @@ def test_an_action_of_an_external_actor_is_an_error_with_its_line(drivers: Modul
     def body(s: TwoCars) -> Behaviour:
         return Parallel("", s.a.change_speed(target=12.0), s.b.drive(duration=1.0))
 
-    with pytest.raises(CapabilityError, match="a change_speed: a is driven from outside"):
+    with pytest.raises(CapabilityError, match="a change_speed: a is under external control"):
         Run(scenario(body), ego)
 
 
@@ -114,7 +114,7 @@ def test_a_lane_change_that_is_expected(drivers: ModuleType) -> None:
 def test_nothing_can_be_assigned(drivers: ModuleType) -> None:
     ego = driving(drivers, lambda seen, dt: Control())
     body = scenario(lambda s: Serial("", Wait(elapsed(1.0)), s.a.assign_speed(speed=3.0)))
-    with pytest.raises(CapabilityError, match="a assign_speed: a is driven from outside"):
+    with pytest.raises(CapabilityError, match="a assign_speed: a is under external control"):
         Run(body, ego, expect=True)
 
 
@@ -137,8 +137,8 @@ def test_what_is_assigned_at_first_is_its_start(drivers: ModuleType) -> None:
     ("answer", "said"),
     [
         (lambda seen, dt: seen.nothing, "drivers.Made, raised AttributeError"),
-        (lambda seen, dt: 3.0, "answers a float, not a Control"),
-        (lambda seen, dt: Control(math.nan), "answers a Control whose acceleration is nan"),
+        (lambda seen, dt: 3.0, "returns a float, not a Control"),
+        (lambda seen, dt: Control(math.nan), "returns a Control whose acceleration is nan"),
     ],
 )
 def test_a_driver_that_breaks(drivers: ModuleType, answer: Any, said: str) -> None:
@@ -157,7 +157,7 @@ def test_a_driver_that_breaks(drivers: ModuleType, answer: Any, said: str) -> No
         ({"ego": "a=drivers:Nobody"}, "cannot be made: AttributeError"),
         ({"ego": "a=no_such_module:Nobody"}, "cannot be made: ModuleNotFoundError"),
         ({"ego": "a=builtins:range"}, "cannot be made: TypeError"),
-        ({"ego": "z=drivers:Made"}, "z is no vehicle of the scenario"),
+        ({"ego": "z=drivers:Made"}, "z is not a vehicle of the scenario"),
         ({"control": "a=external"}, "no driver for a"),
         ({"control": "driven"}, "the world embedded has exact and external"),
         ({"control": "z=exact"}, "the scenario has no such actor"),

@@ -154,10 +154,16 @@ def test_goals_with_a_shape_or_a_time(
 @pytest.mark.parametrize(
     ("command", "words"),
     [
-        (Arrive(4.0, way=60.0), "when its time is over it is 20.0 m short of its place"),
-        (Arrive(4.0, way=40.0, speed=14.0), "when its time is over it is 4.0 m/s too slow"),
+        (
+            Arrive(4.0, way=60.0),
+            "at the end of its duration it is 20.0 m short of its target position",
+        ),
+        (Arrive(4.0, way=40.0, speed=14.0), "at the end of its duration it is 4.0 m/s too slow"),
         (Arrive(4.0, way=40.0, speed=FollowSpeed("b")), "it is 2.0 m/s too slow"),
-        (Cover(Linear(0.0, 50.0, 4.0)), "when its time is over it is 10.0 m short of its place"),
+        (
+            Cover(Linear(0.0, 50.0, 4.0)),
+            "at the end of its duration it is 10.0 m short of its target position",
+        ),
     ],
 )
 def test_who_is_not_there_in_time_fails(

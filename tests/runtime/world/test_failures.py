@@ -88,19 +88,20 @@ CASES: list[tuple[Callable[[Any], Behaviour], str, float, str]] = [
         lambda s: s.a.change_speed(MUST, target=60.0, duration=2.0),
         "a.change_speed",
         AT_ONCE,
-        "10.0 to 60.0 m/s in 2 s takes more than 4 m/s^2",
+        "a change from 10.0 to 60.0 m/s in 2 s requires more than 4 m/s^2",
     ),
     (
         lambda s: s.a.change_acceleration(target=5.0),
         "a.change_acceleration",
         AT_ONCE,
-        "an acceleration of 5.00 m/s^2 is beyond the 4 m/s^2 it can do",
+        "an acceleration of 5.00 m/s^2 exceeds its limit of 4 m/s^2",
     ),
     (
         lambda s: s.a.drive(MUST, lane(3, at="end"), duration=0.5),
         "a.drive",
         AT_ONCE,
-        "3.5 m sideways in 0.5 s takes more than 3 m/s^2; 2.40 s are possible",
+        "a lateral displacement of 3.5 m in 0.5 s requires more than 3 m/s^2;"
+        " the shortest possible duration is 2.40 s",
     ),
     (
         lambda s: s.a.change_lane(side="left", rate_peak=lambda: -1.0),
@@ -118,7 +119,8 @@ CASES: list[tuple[Callable[[Any], Behaviour], str, float, str]] = [
         lambda s: s.a.change_lane(MUST, side="left", duration=1.0),
         "a.change_lane",
         AT_ONCE,
-        "3.5 m sideways in 1 s takes more than 3 m/s^2; 2.40 s are possible",
+        "a lateral displacement of 3.5 m in 1 s requires more than 3 m/s^2;"
+        " the shortest possible duration is 2.40 s",
     ),
     (
         lambda s: s.a.change_lane(target=lane_of("2", -1)),
@@ -130,31 +132,31 @@ CASES: list[tuple[Callable[[Any], Behaviour], str, float, str]] = [
         lambda s: s.a.follow_lane(target=lane_of("1", 4), duration=2.0),
         "a.follow_lane",
         AT_ONCE,
-        "lane 4 of road 1 is no driving lane",
+        "lane 4 of road 1 is not a driving lane",
     ),
     (
         lambda s: s.a.drive(distance(-5.0)),
         "a.drive",
         AT_ONCE,
-        "the place it is to be at lies 5.0 m behind it",
+        "its target position is 5.0 m behind it",
     ),
     (
         lambda s: s.a.drive(position(20.0, at="end")),
         "a.drive",
         AT_ONCE,
-        "the place it is to be at lies 40.0 m behind it",
+        "its target position is 40.0 m behind it",
     ),
     (
         lambda s: s.a.drive(position(at_point=Point(30.0, -8.75), at="end")),
         "a.drive",
         AT_ONCE,
-        "the place it is to be at lies 30.0 m behind it",
+        "its target position is 30.0 m behind it",
     ),
     (
         lambda s: s.a.drive(position(at_point=Point(100.0, 8.75), at="end")),
         "a.drive",
         AT_ONCE,
-        "no lane leads from a to (100, 8.75)",
+        "no route along lanes leads from a to (100, 8.75)",
     ),
     (
         lambda s: s.a.change_position(target_odr=OdrPoint("9", "-1", 5.0)),
@@ -166,13 +168,13 @@ CASES: list[tuple[Callable[[Any], Behaviour], str, float, str]] = [
         lambda s: s.a.change_position(target_xyz=Point(100.0, 60.0)),
         "a.change_position",
         AT_ONCE,
-        "no driving lane is at (100, 60)",
+        "there is no driving lane at (100, 60)",
     ),
     (
         lambda s: s.a.change_position(target_odr=OdrPoint("1", "-3", 30.0)),
         "a.change_position",
         AT_ONCE,
-        "no way along lanes leads from lane -3 of road 1 to lane -3 of road 1, s = 30.0 m",
+        "no route along lanes leads from lane -3 of road 1 to lane -3 of road 1, s = 30.0 m",
     ),
     (
         lambda s: s.a.assign_position(odr_point=OdrPoint("1", "-9", 5.0)),
@@ -251,7 +253,7 @@ CASES: list[tuple[Callable[[Any], Behaviour], str, float, str]] = [
         lambda s: s.a.change_speed(target=14.0, duration=(0.1, 0.3)),
         "a.change_speed",
         AT_ONCE,
-        "10.0 to 14.0 m/s in 0.3 s takes more than 12 m/s^2",
+        "a change from 10.0 to 14.0 m/s in 0.3 s requires more than 12 m/s^2",
     ),
 ]
 
@@ -286,7 +288,7 @@ def test_a_failure_says_what_where_when_and_why(
         (lambda s: s.a.drive(lateral(0.5), duration=2.0), "is not on a road, so it has no lane"),
         (
             lambda s: s.a.change_space_gap(target=9.0, direction="behind", reference=s.b),
-            "there is no way along lanes to b",
+            "there is no route along lanes to b",
         ),
         (
             lambda s: s.a.drive(speed(0.3, direction="lateral"), duration=2.0),
@@ -309,12 +311,12 @@ def test_who_has_left_the_road_has_no_lane(
 @pytest.mark.parametrize(
     ("modifiers", "why"),
     [
-        (lambda s: [position(30.0, behind=s.b)], "there is no way along lanes to b"),
-        (lambda s: [lane(same_as=s.b)], "lane -5 of road 1 is no driving lane"),
-        (lambda s: [lateral(3.0, side_of=s.b)], "there is no way along lanes to b"),
+        (lambda s: [position(30.0, behind=s.b)], "there is no route along lanes to b"),
+        (lambda s: [lane(same_as=s.b)], "lane -5 of road 1 is not a driving lane"),
+        (lambda s: [lateral(3.0, side_of=s.b)], "there is no route along lanes to b"),
         (
             lambda s: [speed(5.0), position(2.0, behind=s.b, at="end")],
-            "there is no way along lanes to b",
+            "there is no route along lanes to b",
         ),
     ],
 )
@@ -344,4 +346,4 @@ def test_the_end_of_the_lane(run: Run) -> None:
             return self.a.drive(speed(10.0), keep_lane(), duration=20.0)
 
     done = run(End, spawn={"a": ("1", -3, 1980.0)})
-    assert "a has come to the end of lane -3 of road 1" in done.result.reason
+    assert "a has reached the end of lane -3 of road 1" in done.result.reason

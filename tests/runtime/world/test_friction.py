@@ -170,11 +170,11 @@ def rainy(body: Callable[[Any], Behaviour]) -> type[Scenario]:
         ),
         (
             lambda s: s.a.change_acceleration(target=-7.0),
-            "an acceleration of -7.00 m/s^2 is beyond the 5.884 m/s^2 it can do on a wet road",
+            "an acceleration of -7.00 m/s^2 exceeds its limit of 5.884 m/s^2 on a wet road",
         ),
         (
             lambda s: s.a.drive(acceleration(-7.0), duration=1.0),
-            "an acceleration of -7.00 m/s^2 is beyond the 5.884 m/s^2 it can do on a wet road",
+            "an acceleration of -7.00 m/s^2 exceeds its limit of 5.884 m/s^2 on a wet road",
         ),
     ],
 )

@@ -102,7 +102,7 @@ def test_too_short_a_time(run: Run) -> None:
             )
         )
     )
-    assert "when its time is over it is" in done.result.reason
+    assert "at the end of its duration it is" in done.result.reason
 
 
 def test_across_the_road(run: Run) -> None:

@@ -183,12 +183,15 @@ def test_cycle(highway: RoadMap, a: Vehicle, b: Vehicle) -> None:
             "the lane does not reach 5000.0 m ahead of a",
         ),
         ([position(x=9000.0, y=0.0)], "(9000, 0) is off the map, which reaches from"),
-        ([lane(9)], "map highway has no free place on a road with a lane 9 from the right"),
+        ([lane(9)], "map highway has no free position on a road with a lane 9 from the right"),
         ([keep_lane()], "b cannot start with keep_lane"),
-        ([speed(3.0, at="end")], "speed at the end is no start"),
+        ([speed(3.0, at="end")], "speed at the end is not a start"),
         ([speed(3.0, rate_profile="smooth")], "a speed at the start takes no rate_profile"),
         ([position(x=9.0, y=-2.0), lane(1)], "b: its point is not on lane 1 from the right"),
-        ([position(x=9.0, y=-2.0), lane(same_as="a")], "no room for a lane relative to a"),
+        (
+            [position(x=9.0, y=-2.0), lane(same_as="a")],
+            "already determines the lane, which cannot be relative to a",
+        ),
     ],
 )
 def test_mistakes(
@@ -209,7 +212,7 @@ def swap(modifier: Any, a: Vehicle) -> Any:
 @pytest.mark.parametrize(
     ("spawn", "message"),
     [
-        (("1", -3, 20.0), "lane -3 of road 1 is number 2 from the right, the scenario asks for 1"),
+        (("1", -3, 20.0), "lane -3 of road 1 is number 2 from the right, the scenario requires 1"),
         (("7", -3, 20.0), "there is no road `7`"),
         (("1", -4, 9999.0), "road 1 is 2000.0 m long, so there is no s = 9999 m"),
     ],

@@ -102,7 +102,7 @@ def test_reading_before_the_run_is_an_error() -> None:
 def test_unknown_names_have_suggestions() -> None:
     with pytest.raises(ScenarioError, match="did you mean change_lane"):
         methods.bind(Vehicle(), "change_lan")(side="left").setup()
-    with pytest.raises(ScenarioError, match="vehicle_category `lorry` is none of car, van"):
+    with pytest.raises(ScenarioError, match="vehicle_category `lorry` is not one of car, van"):
         Vehicle(vehicle_category="lorry")
     with pytest.raises(TypeError, match="wheels"):
         Vehicle(wheels=4)  # type: ignore[call-arg]

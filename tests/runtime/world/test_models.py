@@ -108,7 +108,9 @@ def test_two_models_at_once_are_an_error(run: Run) -> None:
             Wait(elapsed(1.0)),
         )
 
-    with pytest.raises(ScenarioError, match="a gets two behavioral models at once: careful_driver"):
+    with pytest.raises(
+        ScenarioError, match="a is assigned two behavioral models at once: careful_driver"
+    ):
         run(closing(STEADY, body))
 
 

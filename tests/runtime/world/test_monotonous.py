@@ -37,7 +37,7 @@ def test_no_way_back_where_it_is_monotonous(run: Run) -> None:
     """It would stop after 5 s and come back."""
     back = own(lambda t: 10.0 * t - t * t, 8.0)
     done = run(scenario(lambda s: s.a.drive(distance(16.0, shape=back, movement_mode=MONOTONOUS))))
-    assert "distance: it would have to turn back after 5.0 s" in done.result.reason
+    assert "distance: it would have to reverse after 5.0 s" in done.result.reason
     with pytest.raises(UnsupportedError, match="`monotonous` and `prefer_non_physical` exclude"):
         run(scenario(lambda s: s.a.drive(distance(16.0, movement_mode=MONOTONOUS), JUMP)))
 
@@ -49,7 +49,7 @@ def test_monotonous_means_within_the_limits(run: Run) -> None:
     assert done.result.status == "success"
     wish = speed(target, at="end", movement_mode=MONOTONOUS)
     done = run(scenario(lambda s: s.a.drive(wish, duration=2.0)))
-    assert "takes more than 4 m/s^2" in done.result.reason
+    assert "requires more than 4 m/s^2" in done.result.reason
 
 
 @pytest.mark.parametrize(("wanted", "time"), [(36.0, 4.0), (44.0, 8.0)])
@@ -66,7 +66,7 @@ def test_a_gap_does_not_turn_back_where_it_is_monotonous(
         return made
 
     done = run(scenario(body(MONOTONOUS, time)))
-    assert "position: it would have to turn back" in done.result.reason
+    assert "position: it would have to reverse" in done.result.reason
     assert run(scenario(body("other", time))).result.status == "success"
     if wanted > 40.0:
         assert run(scenario(body(MONOTONOUS, 5.5))).result.status == "success"
@@ -88,4 +88,4 @@ def test_a_place_across_does_not_overshoot(run: Run, mode: Any) -> None:
         assert max(state["offset"] for state in done.states("a")) > 0.95
         assert done.states("a")[-1]["offset"] == pytest.approx(0.9)
     else:
-        assert "lateral: it would have to turn back" in done.result.reason
+        assert "lateral: it would have to reverse" in done.result.reason

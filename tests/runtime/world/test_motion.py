@@ -181,7 +181,7 @@ def test_at_a_dead_end_it_brakes_with_a_reason(
     assert way == pytest.approx(0.5 * 10.0 * (10.0 / 8.0 + 8.0 / 10.0) + 0.5, abs=0.05)
     assert now.h == end.h
     reason = world.progress("a", LONGITUDINAL).failed
-    assert reason == "a has come to the end of lane -2 of road 1"
+    assert reason == "a has reached the end of lane -2 of road 1"
 
 
 def test_released_slot_holds_the_speed(car_world: CarWorld) -> None:

@@ -166,7 +166,9 @@ def test_what_lies_between_ends_the_lanes() -> None:
     road_map = one_road("line", 600.0, lanes=divided)
     own = LanePosition("1", -1, 100.0)
     assert lane_beside(road_map, own, 1) is None
-    with pytest.raises(ScenarioError, match="lane 2 of road 1 is no driving lane beside lane -1"):
+    with pytest.raises(
+        ScenarioError, match="lane 2 of road 1 is not a driving lane beside lane -1"
+    ):
         lanes_to_left(road_map, own, LanePosition("1", 2, 100.0))
 
 

@@ -79,15 +79,15 @@ def test_it_ends_when_it_says(run: Run) -> None:
     [
         (speed(15.0, shape=own(SPEED, lambda t: 10.0 + t, 4.0)), "reaches 14, which is not 15"),
         (speed(shape=own(SPEED, lambda t: 12.0 + t, 4.0)), "has 12.00 m/s, after 10.00 m/s"),
-        (speed(shape=own(SPEED, lambda t: 10.0 + 20 * t, 4.0)), "its shape takes 20.00 m/s^2"),
-        (speed(shape=own(SPEED, lambda t: 30.0)), "its shape asks for 400.00 m/s^2"),
+        (speed(shape=own(SPEED, lambda t: 10.0 + 20 * t, 4.0)), "its shape requires 20.00 m/s^2"),
+        (speed(shape=own(SPEED, lambda t: 30.0)), "its shape requires 400.00 m/s^2"),
         (
             speed(shape=own(SPEED, wave, 7.0), movement_mode="monotonous"),
-            "speed: it would have to turn back after",
+            "speed: it would have to reverse after",
         ),
         (
             acceleration(shape=own(RATE, lambda t: t * t - t, 2.0), movement_mode="monotonous"),
-            "turn",
+            "reverse",
         ),
     ],
 )

@@ -147,11 +147,11 @@ def test_a_lane_change_after_a_path(run: Run) -> None:
         (Path((Pose(900.0, 0.0), Pose(950.0, 0.0))), "the path is 850 m away"),
         (
             Path((Pose(50.0, -8.75), Pose(70.0, -8.75), Pose(70.0, 40.0))),
-            "because at 10.0 m/s it cannot turn in less than 12.5 m",
+            "because at 10.0 m/s its turning radius is at least 12.5 m",
         ),
         (
             Path((Pose(50.0, -8.75, yaw=0.0), Pose(70.0, -8.75, yaw=1.57))),
-            "asks for a heading 90 degrees off the way",
+            "requires a heading 90 degrees off the path",
         ),
     ],
 )

@@ -122,7 +122,7 @@ def test_a_speed_that_is_never_reached_fails_with_figures(highway: RoadMap) -> N
     done = Run(scenario(lambda s: s.a.change_speed(target=16.0)), highway, plant)
     assert done.result.status == "failure"
     (failed,) = done.actions("fail")
-    assert failed["reason"] == "it is -2.00 m/s off its speed, 5 s after it was to be there"
+    assert failed["reason"] == "its speed deviates by -2.00 m/s, 5 s after its time of arrival"
     exact = Run(scenario(lambda s: s.a.change_speed(target=16.0)), highway, FollowingPlant(0.01))
     assert done.result.time == pytest.approx(exact.result.time + PATIENCE, abs=0.2)
 
@@ -130,7 +130,7 @@ def test_a_speed_that_is_never_reached_fails_with_figures(highway: RoadMap) -> N
 def test_leaving_the_path_fails_with_figures(highway: RoadMap) -> None:
     done = Run(scenario(lambda s: s.a.drive(duration=20.0)), highway, FollowingPlant(drift=3.0))
     assert done.result.status == "failure"
-    assert "m off its path" in done.actions("fail")[0]["reason"]
+    assert "m from its path" in done.actions("fail")[0]["reason"]
 
 
 def test_a_duration_is_judged_by_tolerance(highway: RoadMap) -> None:
@@ -155,7 +155,7 @@ def test_a_start_condition_wants_the_actor_there(highway: RoadMap) -> None:
 
     assert Run(scenario(body), highway, FollowingPlant()).result.status == "success"
     slow = Run(scenario(body), highway, FollowingPlant(most=9.0))
-    assert "at its start it is -1.00 m/s off its speed" in slow.result.reason
+    assert "at its start its speed deviates by -1.00 m/s" in slow.result.reason
 
 
 def test_below_a_threshold_it_stands(highway: RoadMap, make_spec: Spec) -> None:

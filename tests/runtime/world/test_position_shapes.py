@@ -164,11 +164,13 @@ def test_a_way_that_goes_on(run: Run) -> None:
 def test_it_is_asked_for_what_cannot_be(run: Run) -> None:
     steep = own(lambda t: 10.0 * t + 8.0 * t * t, 2.0)
     done = run(scenario(lambda s: s.a.drive(distance(52.0, shape=steep))))
-    assert "its shape takes 16.00 m/s^2, more than the 12 m/s^2" in done.result.reason
+    assert (
+        "its shape requires 16.00 m/s^2, which exceeds its limit of 12 m/s^2" in done.result.reason
+    )
     must = physical_movement("must_be_physical")
     some = own(lambda t: 10.0 * t + 3.0 * t * t, 2.0)
     done = run(scenario(lambda s: s.a.drive(distance(32.0, shape=some), must)))
-    assert "more than the 4 m/s^2" in done.result.reason
+    assert "which exceeds its limit of 4 m/s^2" in done.result.reason
     broken = own(lambda t: 1.0 / (t - t), 2.0)
     with pytest.raises(ScenarioError, match="`compute` of the shape has no value: float division"):
         run(scenario(lambda s: s.a.drive(distance(52.0, shape=broken))))

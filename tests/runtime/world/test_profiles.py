@@ -140,5 +140,5 @@ def test_rates_beyond_friction_are_refused() -> None:
     too_much = excessive_rate(SpeedChange(20.0, "constant", 15.0), 10.0)
     too_short = excessive_rate(SpeedChange(20.0, "smooth", None, 0.5), 10.0)
     assert too_much == "rate_peak 15 m/s^2 is not between 0 and 12 m/s^2"
-    assert too_short == "10.0 to 20.0 m/s in 0.5 s takes more than 12 m/s^2"
+    assert too_short == "a change from 10.0 to 20.0 m/s in 0.5 s requires more than 12 m/s^2"
     assert excessive_rate(SpeedChange(20.0, "constant", 6.0), 10.0) is None

@@ -64,13 +64,13 @@ def test_assign_and_keep_acceleration(run: Run) -> None:
     [
         (
             lambda s: s.a.change_acceleration(target=9.0),
-            "an acceleration of 9.00 m/s^2 is beyond the 4 m/s^2 it can do",
+            "an acceleration of 9.00 m/s^2 exceeds its limit of 4 m/s^2",
         ),
         (
             lambda s: s.a.change_acceleration(
                 target=-7.0, rate_profile="constant", rate_peak=0.5, duration=(0.0, 20.0)
             ),
-            "it stands before its acceleration is -7 m/s^2",
+            "it comes to a standstill before its acceleration is -7 m/s^2",
         ),
         (
             lambda s: s.a.change_acceleration(target=2.0, rate_peak=1.0, duration=1.0),
@@ -78,16 +78,17 @@ def test_assign_and_keep_acceleration(run: Run) -> None:
         ),
         (
             lambda s: s.a.drive(speed(20.0, at="end"), physical_movement(), duration=2.0),
-            "10.0 to 20.0 m/s in 2 s takes more than 4 m/s^2",
+            "a change from 10.0 to 20.0 m/s in 2 s requires more than 4 m/s^2",
         ),
         (
             lambda s: s.a.drive(acceleration(5.0), physical_movement(), duration=2.0),
-            "an acceleration of 5.00 m/s^2 is beyond the 4 m/s^2 it can do",
+            "an acceleration of 5.00 m/s^2 exceeds its limit of 4 m/s^2",
         ),
-        (lambda s: s.a.drive(distance(200.0), duration=4.0), "20.00 m/s^2 is beyond"),
+        (lambda s: s.a.drive(distance(200.0), duration=4.0), "20.00 m/s^2 exceeds"),
         (
             lambda s: s.a.drive(position(50.0, behind=s.b, at="end"), duration=1.0),
-            "when its time is over it is 4.0 m beyond its place; it can do 4 and -8 m/s^2",
+            "at the end of its duration it is 4.0 m beyond its target position;"
+            " its limits are 4 and -8 m/s^2",
         ),
     ],
 )

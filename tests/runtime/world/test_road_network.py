@@ -73,7 +73,7 @@ def test_sides_and_file(asked: Callable[..., Any]) -> None:
 
 
 def test_off_the_road_is_an_error(run: Run) -> None:
-    with pytest.raises(ScenarioError, match="no driving lane is at"):
+    with pytest.raises(ScenarioError, match="there is no driving lane at"):
         run(scenario(lambda s: Wait(lambda: bool(s.road.xyz_to_route_point(0.0, 90.0, 0.0)))))
 
 

@@ -66,7 +66,7 @@ def test_a_road_runs_the_way_the_next_one_needs(load_map: Load) -> None:
 
 def test_roads_that_do_not_lead_to_each_other(load_map: Load) -> None:
     motorway = [MapSegment("road", "2"), MapSegment("road", "1")]
-    with pytest.raises(PathError, match="no way along lanes leads from"):
+    with pytest.raises(PathError, match="no route along lanes leads from"):
         poses_of_route(load_map("merge"), motorway)
     with pytest.raises(PathError, match="the route has no elements"):
         poses_of_route(load_map("merge"), [])
@@ -131,7 +131,7 @@ def test_points_that_stand_for_a_crossing(load_map: Load) -> None:
     on_it = MapPose(250.0, 0.0, 0.0, 0.0)
     poses = poses_of_route(road_map, [on_it], "crossing")
     assert length(poses) == pytest.approx(2.0 * WALK)
-    with pytest.raises(PathError, match=r"no crossing is at \(100.0, 0.0\)"):
+    with pytest.raises(PathError, match=r"there is no crossing at \(100.0, 0.0\)"):
         poses_of_route(road_map, [MapPose(100.0, 0.0, 0.0, 0.0)], "crossing")
-    with pytest.raises(PathError, match=r"no lane is at \(100.0, 50.0\)"):
+    with pytest.raises(PathError, match=r"there is no lane at \(100.0, 50.0\)"):
         poses_of_route(road_map, [MapPose(100.0, 50.0, 0.0, 0.0)], "lane")

@@ -223,7 +223,9 @@ def test_a_place_on_the_globe_needs_a_map_that_knows_it(tmp_path: Path) -> None:
     scenario = Nowhere(RunSettings(map_path=(tmp_path,)))
     scenario.create_tree()
     context = make_context(scenario, make_world(scenario))
-    with pytest.raises(ScenarioError, match="there: map nowhere has no place for it: it has no"):
+    with pytest.raises(
+        ScenarioError, match="there: map nowhere cannot locate the point: it has no"
+    ):
         place_actors(scenario, context)
 
 
@@ -262,7 +264,9 @@ def test_the_stop_line_of_the_map() -> None:
     assert line.offset == line.secondary_stop_offset == float(element.get("s", ""))
     assert (line.rightmost_lane, line.leftmost_lane) == (1, 2)
     assert (line.route.found.road, line.route.found.forwards) == ("1", True)
-    with pytest.raises(ScenarioError, match="nothing says the primary_stop_line_marking"):
+    with pytest.raises(
+        ScenarioError, match="the primary_stop_line_marking of the stop line is not stated"
+    ):
         line.primary_stop_line_marking  # noqa: B018
 
 

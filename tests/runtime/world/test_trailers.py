@@ -154,7 +154,7 @@ def test_a_trailer_that_is_pushed_folds(highway: RoadMap) -> None:
     (warning,) = world.warnings()
     said = float(warning.partition(" at ")[2].partition(" s:")[0])
     assert said == pytest.approx(expected, abs=0.051)
-    assert warning.startswith("t jack-knifes at ")
+    assert warning.startswith("t jackknifes at ")
 
 
 def test_couple_and_uncouple(run: Run) -> None:

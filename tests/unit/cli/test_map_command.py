@@ -50,7 +50,7 @@ def test_a_run_says_once_what_is_wrong_with_its_map(shell: Shell) -> None:
     )
     path.write_text(text)
     listed = shell("map", "step.xodr").out
-    assert "`road` 1 has no geometry from s = 100 m to 120 m: it goes straight on" in listed
+    assert "`road` 1 has no geometry from s = 100 m to 120 m: a straight line is assumed" in listed
     assert "  lane -1 of road 1 at s = 4.00 m: 0.250 m, 0.0°" in listed
     ended = shell("run", "a.osc", "--map-path", ".")
     assert ended.code == 0, ended.err

@@ -132,7 +132,7 @@ def test_which_scenario_runs() -> None:
     assert choose_scenario(several, None, path).name == "b"
     with pytest.raises(click.UsageError, match="choose one with --scenario: a, b"):
         choose_scenario(scenarios("a", "b"), None, path)
-    with pytest.raises(click.UsageError, match="no scenario `c`; there is: a, b"):
+    with pytest.raises(click.UsageError, match="no scenario `c`; available: a, b"):
         choose_scenario(scenarios("a", "b"), "c", path)
 
 

@@ -128,7 +128,7 @@ def test_a_failure_is_told_in_a_table(project: Shell) -> None:
     assert ended.returncode == 5
     (row,) = (line for line in ended.stdout.splitlines() if line.startswith("scenarios/refused"))
     assert row.split()[:4] == ["scenarios/refused/never.osc", "never", "failure", "success"]
-    assert "never happened" in row
+    assert "never occurred" in row
 
 
 def test_errors_of_a_source_fail_its_test(project: Shell) -> None:
@@ -164,7 +164,7 @@ def test_the_page_of_a_project(project: Shell) -> None:
     }
     assert (found["slow"]["verdict"], found["slow"]["expected"]) == ("success", "success")
     assert (found["never"]["verdict"], found["never"]["expected"]) == ("failure", "timeout")
-    assert "never happened" in found["never"]["reason"]
+    assert "never occurred" in found["never"]["reason"]
     assert found["slow"]["page"] == "traces/urban/slow.html"
     assert (project.folder / "out" / found["slow"]["page"]).is_file()
     xml = data["xml"]

@@ -31,7 +31,9 @@ def position_of(ctx: Context, start: Start, taken_by: TakenBy) -> StartPlace:
     if start.spawn is not None and (
         start.is_beside or location is not None or position is not None
     ):
-        raise Inexpressible("the scenario says where it starts, so it takes no --spawn", start.span)
+        raise Inexpressible(
+            "the scenario states where it starts, so --spawn does not apply", start.span
+        )
     path = start.modifiers.get("on_path")
     road = None if path is None else path.get("path")  # matters only to who has no other place
     if location is not None:
@@ -94,7 +96,7 @@ def _near_point(ctx: Context, start: Start, point: tuple[float, float, float]) -
     """Return the place in the lane that is nearest to a point, or in one of the same road."""
     near = ctx.required_roads().map.locate(*point)
     if near is None:
-        raise Inexpressible(f"no lane is near ({point[0]:g}, {point[1]:g})", start.span)
+        raise Inexpressible(f"there is no lane near ({point[0]:g}, {point[1]:g})", start.span)
     return in_lane(ctx, start, _numbered(ctx, start, LanePosition(near.road, near.lane, near.s)))
 
 

@@ -67,7 +67,7 @@ class Environment(Actor, EnvironmentMethods):
             ScenarioError: The scenario does not state it.
         """
         if self._geodetic_position is None:
-            raise ScenarioError(f"nothing says the geodetic_position of {self.id}", self.source)
+            raise ScenarioError(f"the geodetic_position of {self.id} is not stated", self.source)
         return self._geodetic_position
 
     @property
@@ -78,7 +78,7 @@ class Environment(Actor, EnvironmentMethods):
             ScenarioError: The scenario does not state it.
         """
         if self._datetime is None:
-            raise ScenarioError(f"nothing says the datetime of {self.id}", self.source)
+            raise ScenarioError(f"the datetime of {self.id} is not stated", self.source)
         return self._datetime
 
     @property

@@ -60,7 +60,7 @@ class TrafficParticipant(MovableObject):
         for number, kind in sorted(said.items()):
             if number > len(found):
                 raise ScenarioError(
-                    f"nothing says number {len(found)} of what {self.id} moves on", self.source
+                    f"intended_infrastructure[{len(found)}] of {self.id} is not stated", self.source
                 )
             found[number : number + 1] = [kind]
         return found

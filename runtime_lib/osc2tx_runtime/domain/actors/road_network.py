@@ -91,11 +91,11 @@ class RoadNetwork:
         """The point on the axis of the driving lane under it.
 
         Raises:
-            ScenarioError: There is no driving lane at the point.
+            ScenarioError: There is not a driving lane at the point.
         """
         on = self._map.locate(x, y, z, max_distance=1e-3)
         if on is None:
-            raise ScenarioError(f"no driving lane is at ({x:g}, {y:g})")
+            raise ScenarioError(f"there is no driving lane at ({x:g}, {y:g})")
         return route_point_at(self._map, on)
 
     def route_point_to_xyz(self, route_point: RoutePoint) -> XyzPoint:

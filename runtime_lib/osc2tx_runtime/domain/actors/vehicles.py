@@ -68,7 +68,7 @@ class Vehicle(TrafficParticipant, VehicleMethods):
         super().__init__(**fields)
         if vehicle_category is not None and vehicle_category not in VEHICLE_CATEGORIES:
             known = ", ".join(VEHICLE_CATEGORIES)
-            raise ScenarioError(f"vehicle_category `{vehicle_category}` is none of {known}")
+            raise ScenarioError(f"vehicle_category `{vehicle_category}` is not one of {known}")
         self._category = vehicle_category
         self._axles = axles
         self._rear_overhang = rear_overhang

@@ -155,7 +155,7 @@ class Crossing(Route):
             ScenarioError: It is not stated.
         """
         if self.stated_width is None:
-            raise ScenarioError(f"nothing says the width of {self.found}", self.source)
+            raise ScenarioError(f"the width of {self.found} is not stated", self.source)
         return self.stated_width
 
     @property
@@ -186,7 +186,7 @@ class KnownCrossingType:
 
     def _missing(self, member: str) -> ScenarioError:
         return ScenarioError(
-            f"the map does not say the {member} of {self._crossing.found}", self._crossing.source
+            f"the map does not state the {member} of {self._crossing.found}", self._crossing.source
         )
 
     @property

@@ -22,7 +22,7 @@ def place_of_geodetic(road_map: RoadMap, point: GeodeticPoint) -> Pose:
     try:
         x, y = road_map.geo_reference.project(point.latitude, point.longitude)
     except GeoReferenceError as error:
-        raise PlacementError(f"map {road_map.name} has no place for it: {error}") from error
+        raise PlacementError(f"map {road_map.name} cannot locate the point: {error}") from error
     on = road_map.locate(x, y, lane_types=ANY_LANE)
     height = 0.0 if on is None else road_map.pose(on).z
     return Pose(x, y, height + point.altitude, 0.0)

@@ -243,7 +243,9 @@ class Measures(MeasuredObject):
         if distance is None:
             distance = (along_own_lane if ahead else lateral_on_road)(road_map, here, there)
         if distance is None:
-            raise ScenarioError(f"no lane leads from {self.id} to the place or back")
+            raise ScenarioError(
+                f"no route along lanes leads from {self.id} to the position or back"
+            )
         if mode == "reference_points":
             return distance
         if ahead:

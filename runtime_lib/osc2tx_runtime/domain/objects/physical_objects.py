@@ -155,7 +155,7 @@ class PhysicalObject(Actor, Measures):
             ScenarioError: It does not state it.
         """
         if value is None:
-            raise ScenarioError(f"nothing says the {member} of {self.id}", self.source)
+            raise ScenarioError(f"the {member} of {self.id} is not stated", self.source)
         return value
 
     # --- for the world ------------------------------------------------------------------------

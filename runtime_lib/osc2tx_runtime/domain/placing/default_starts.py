@@ -33,7 +33,7 @@ class StartPlaces:
         """The position of `--spawn`, checked against the scenario."""
         if position is not None or (lane is not None and lane.reference is not None):
             raise PlacementError(
-                f"{actor}: the scenario says where it starts, so it takes no --spawn"
+                f"{actor}: the scenario states where it starts, so --spawn does not apply"
             )
         try:
             self._map.pose(spawn)
@@ -50,7 +50,7 @@ class StartPlaces:
             if number != lane.number:
                 raise PlacementError(
                     f"--spawn {actor}: lane {spawn.lane} of road {spawn.road} is number"
-                    f" {number} from the {lane.edge}, the scenario asks for {lane.number}"
+                    f" {number} from the {lane.edge}, the scenario requires {lane.number}"
                     if number
                     else f"--spawn {actor}: lane {spawn.lane} of road {spawn.road} is no"
                     " driving lane"
@@ -95,7 +95,7 @@ class StartPlaces:
         wanted = "" if lane is None else f" with a lane {lane.number} from the {lane.edge}"
         far = "" if distance is None else f", {distance:g} m from its start"
         raise PlacementError(
-            f"{actor}: map {self._map.name} has no free place on a road{wanted}{far}"
+            f"{actor}: map {self._map.name} has no free position on a road{wanted}{far}"
         )
 
     def _beside(
@@ -114,7 +114,7 @@ class StartPlaces:
                 return found
         raise PlacementError(
             f"{actor} overlaps {where} from the start of road {place.road}, in lane {place.lane};"
-            " give one of them another place"
+            " state another position for one of them"
         )
 
     def on_path(

@@ -93,7 +93,7 @@ class MapSolver:
             if self._choices > _MOST_CHOICES:
                 raise PlacementError(
                     f"map {self._map_name}: no segments for the declared roads were found in"
-                    f" {_MOST_CHOICES} attempts; say more about each of them"
+                    f" {_MOST_CHOICES} attempts; constrain each of them further"
                 )
             self._chosen[id(part)] = segment
             if self._consistent(part) and self._search(index + 1):

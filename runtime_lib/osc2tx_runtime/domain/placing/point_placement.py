@@ -33,7 +33,8 @@ class PointPlaces:
         """Check that a lane modifier agrees with the point, which determines the lane."""
         if lane.reference is not None:
             raise PlacementError(
-                f"{actor.id}: a point leaves no room for a lane relative to {lane.reference.id}"
+                f"{actor.id}: its point already determines the lane, which cannot be relative to"
+                f" {lane.reference.id}"
             )
         on = (
             at
@@ -50,7 +51,7 @@ class PointPlaces:
         on = self._map.locate(point.x, point.y, point.z)
         if on is None:
             raise PlacementError(
-                f"{actor.id}: no lane is near ({point.x:g}, {point.y:g}); with"
+                f"{actor.id}: there is no lane near ({point.x:g}, {point.y:g}); with"
                 " project_on_route: false it can be off the road"
             )
         place = LanePosition(on.road, on.lane, on.s)

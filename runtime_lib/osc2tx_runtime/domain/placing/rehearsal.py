@@ -193,7 +193,7 @@ def ways_in(
         before = found
     names = ", ".join(before)
     raise PlacementError(
-        f"where {names} has to be at first depends on the way to there",
+        f"the start of {names} depends on the motion that leads to it",
         next((arrival.source for arrival in before.values()), None),
     )
 

@@ -52,7 +52,9 @@ class ActorStart:
             if not modifier.facts.placement:
                 raise PlacementError(f"{actor.id} cannot start with {modifier.name}", source)
             if getattr(modifier, "at", "all") == "end":
-                raise PlacementError(f"{actor.id}: {modifier.name} at the end is no start", source)
+                raise PlacementError(
+                    f"{actor.id}: {modifier.name} at the end is not a start", source
+                )
             reference = getattr(modifier, "reference", None)
             reference = reference or getattr(modifier, "relative_to", None)
             if reference is not None:
@@ -123,7 +125,8 @@ def couple(starts: Sequence[ActorStart]) -> None:
         places = [m for m in trailer.modifiers if not isinstance(m, TowTrailer)]
         if places or trailer.towed_by is not None:
             raise PlacementError(
-                f"{trailer.actor.id} is towed by {start.actor.id}, so it has no place of its own",
+                f"{trailer.actor.id} is towed by {start.actor.id}, so it has no start position of"
+                " its own",
                 start.source,
             )
         vehicle = start.actor

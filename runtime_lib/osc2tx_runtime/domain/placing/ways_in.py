@@ -178,7 +178,7 @@ def _back(arrival: Arrival, road_map: RoadMap, distance: float) -> LanePosition 
     pose = arrival.pose(road_map)
     h = pose.h if arrival.heading is None else arrival.heading
     if arrival.follows_lanes and isinstance(at, LanePosition):
-        raise _NoRoad("it heads off its lane while it moves")
+        raise _NoRoad("its heading deviates from its lane while it moves")
     return Pose(pose.x - distance * cos(h), pose.y - distance * sin(h), pose.z, h)
 
 
@@ -200,5 +200,5 @@ def _blocked(rooms: Sequence[Box], actor: str, others: Boxes, dt: float) -> str 
     for step, (room, boxes) in enumerate(zip(rooms, others, strict=False)):
         for other in overlapped(room, boxes):
             if other != actor:
-                return f"{other} is in its way at {step * dt:.2f} s"
+                return f"{other} blocks its path at {step * dt:.2f} s"
     return None

@@ -29,7 +29,7 @@ def check_one_way(modifier: MovementModifier, course: Profile) -> None:
     """Rejects a reversal if a modifier requires a monotonous motion."""
     turn = turns_back(course) if modifier.monotonous else None
     if turn is not None:
-        raise Refused(f"{modifier.name}: it would have to turn back after {turn:.1f} s")
+        raise Refused(f"{modifier.name}: it would have to reverse after {turn:.1f} s")
 
 
 def check_course(
@@ -80,8 +80,8 @@ def _check_speeds(action: ModifiedMotion, speeds: list[float], step: float) -> N
         most = max(rates, default=0.0)
         if most > cap * 1.01:
             raise Refused(
-                f"its shape takes {most:.2f} m/s^2, more than the {cap:.4g} m/s^2 it can"
-                f" do{limits.road}"
+                f"its shape requires {most:.2f} m/s^2, which exceeds its limit of"
+                f" {cap:.4g} m/s^2{limits.road}"
             )
 
 

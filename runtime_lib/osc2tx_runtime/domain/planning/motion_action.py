@@ -70,7 +70,7 @@ class MotionAction(Action):
         """
         course = command.course if isinstance(command, Careful) else command
         if isinstance(course, SpeedChange) and abs(course.target) > TOP_SPEED and not self.may_jump:
-            raise Refused(f"{course.target:.1f} m/s is beyond the {TOP_SPEED:g} m/s it can do")
+            raise Refused(f"{course.target:.1f} m/s exceeds its maximum speed of {TOP_SPEED:g} m/s")
         if getattr(course, "reference", None) == self.actor.id:
             raise Refused(f"{self.actor.id} cannot be its own reference; name another actor")
         super().command(slot, replace(command, unphysical=True) if self.may_jump else command)

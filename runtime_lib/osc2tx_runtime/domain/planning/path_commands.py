@@ -90,7 +90,7 @@ def _check_yaw(curve: Curve, places: tuple[float, ...]) -> None:
         slip = abs(turn_between(way, wanted))
         if slip > _SLIP:
             raise PathError(
-                f"a point asks for a heading {math.degrees(slip):.0f} degrees off the way, which"
+                f"a point requires a heading {math.degrees(slip):.0f} degrees off the path, which"
                 " only replay can do"
             )
 

@@ -110,7 +110,7 @@ def _check(action: ModifiedMotion, modifier: Modifier) -> None:
                 side = "right" if lanes > 0 else "left"
                 raise Refused(
                     f"at its start it is in lane {here.lane} of road {here.road}, {abs(lanes)} to"
-                    f" the {side} of where it has to be"
+                    f" the {side} of the required one"
                 )
         case Lateral():
             _check_lateral(action, modifier)
@@ -123,8 +123,8 @@ def _check(action: ModifiedMotion, modifier: Modifier) -> None:
             turn = turn_between(low, action.here.h)
             if not -_TURNED <= turn <= high - low + _TURNED:
                 raise Refused(
-                    f"at its start it heads {math.degrees(turn):.1f} degrees off what"
-                    f" {modifier.name} asks for"
+                    f"at its start its heading deviates by {math.degrees(turn):.1f} degrees from"
+                    f" the one that {modifier.name} requires"
                 )
 
 
@@ -134,9 +134,9 @@ def _check_measured(action: ModifiedMotion, at_start: Sequence[Modifier]) -> Non
     if off is None:
         return
     if abs(off.speed) > SPEED_TOLERANCE and any(isinstance(m, Speed) for m in at_start):
-        raise Refused(f"at its start it is {off.speed:+.2f} m/s off its speed")
+        raise Refused(f"at its start its speed deviates by {off.speed:+.2f} m/s")
     if abs(off.place) > PLACE_TOLERANCE and any(isinstance(m, PLACES) for m in at_start):
-        raise Refused(f"at its start it is {abs(off.place):.2f} m beside its path")
+        raise Refused(f"at its start it is {abs(off.place):.2f} m off its path")
 
 
 def _check_place(action: ModifiedMotion, position: Position) -> None:
@@ -180,7 +180,7 @@ def measured(action: ModifiedMotion, position: Position) -> tuple[float, float, 
     other = action.world.state(position.reference.id)
     along = along_lanes(action.world.map, other, action.here)
     if along is None:
-        raise Refused(f"there is no way along lanes to {position.reference.id}")
+        raise Refused(f"there is no route along lanes to {position.reference.id}")
     low, high = position.size()
     if position.timed:
         trailing = max(other.v if position.ahead else action.here.v, 0.0)
@@ -227,7 +227,7 @@ def _check_lateral(action: ModifiedMotion, lateral: Lateral) -> None:
     other = action.world.state(lateral.side_of.id)
     aside = lateral_on_road(action.world.map, here, other)
     if aside is None:
-        raise Refused(f"there is no way along lanes to {lateral.side_of.id}")
+        raise Refused(f"there is no route along lanes to {lateral.side_of.id}")
     low, high = lateral.offsets(here.width, other.width, oncoming=is_oncoming(here, other))
     _within(0.0 - aside, low, high, _NEAR, f"its distance left of {lateral.side_of.id} is", "m")
 

@@ -103,10 +103,10 @@ def _of_point(graph: RoadGraph, element: Element, connect_by: ConnectRoutePoints
             along, aside = line.place_of(pose.x, pose.y)
             if 0.0 <= along <= line.length and abs(aside) <= 0.5 * (line.width or 0.0):
                 return crossing
-        raise PathError(f"no crossing is at ({pose.x:.1f}, {pose.y:.1f})")
+        raise PathError(f"there is no crossing at ({pose.x:.1f}, {pose.y:.1f})")
     place = element if isinstance(element, LanePosition) else _on_lane(graph, element)
     if place is None:
-        raise PathError(f"no lane is at ({pose.x:.1f}, {pose.y:.1f})")
+        raise PathError(f"there is no lane at ({pose.x:.1f}, {pose.y:.1f})")
     lane = graph.segment_of(graph.map.lane_key(place))
     if connect_by == "lane":
         return lane
@@ -157,7 +157,7 @@ def _join(
     graph: RoadGraph, offers: Sequence[Sequence[_Way]], taken: list[_Way]
 ) -> list[Place] | PathError:
     """Positions along the first paths that can be joined; else why the last one cannot."""
-    failure = PathError("the route has an element without a way through it")
+    failure = PathError("an element of the route cannot be traversed")
     for way in offers[len(taken)]:
         found = _places(graph, [*taken, way])
         if not isinstance(found, PathError) and len(taken) + 1 < len(offers):

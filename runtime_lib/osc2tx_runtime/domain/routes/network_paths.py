@@ -155,5 +155,5 @@ def _on_lane(road_map: RoadMap, place: LanePosition | MapPose) -> LanePosition:
         return place
     on = road_map.locate(place.x, place.y, place.z, max_distance=1e-3)
     if on is None:
-        raise PathError(f"no driving lane is at ({place.x:.1f}, {place.y:.1f})")
+        raise PathError(f"there is no driving lane at ({place.x:.1f}, {place.y:.1f})")
     return on

@@ -45,7 +45,7 @@ def place_on_route(
             return _on_lanes(graph, place, found)
         case "compound_route":
             return _on_roads(graph, place, found)
-    raise UnsupportedError(f"a {found.kind} is nothing to measure a distance along")
+    raise UnsupportedError(f"a distance cannot be measured along a {found.kind}")
 
 
 def driven_on_route(

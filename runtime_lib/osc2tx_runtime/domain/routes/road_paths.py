@@ -39,7 +39,7 @@ def way_between(road_map: RoadMap, start: LanePosition, goal: LanePosition) -> t
     length = road_map.route_distance(start, goal)
     if length is None or length <= 0.0:
         raise PathError(
-            f"no way along lanes leads from lane {start.lane} of road {start.road} to lane"
+            f"no route along lanes leads from lane {start.lane} of road {start.road} to lane"
             f" {goal.lane} of road {goal.road}, s = {goal.s:.1f} m"
         )
     route = road_map.route_to(goal)
@@ -96,7 +96,7 @@ def _window(
     while first > 0 and same[first - 1]:
         first -= 1
     if last < 0 or any(p is None for p in forth[:first]) or any(p is None for p in back[last:]):
-        raise PathError("the way along lanes does not stay connected")
+        raise PathError("the route along lanes is not connected")
     at_end, goal = forth[last], back[last]
     assert at_end is not None and goal is not None
     if at_end.lane == goal.lane:

@@ -45,7 +45,7 @@ def read_control_file(name: str, folders: Sequence[Path]) -> list[TrafficLightCy
     try:
         content = json.loads(path.read_text(encoding="utf-8"))
         if not isinstance(content, list):
-            raise ValueError("it is no list of cycles")
+            raise ValueError("it is not a list of cycles")
         return [_cycle(entry) for entry in content]
     except (OSError, ValueError, RecursionError) as error:
         raise InputError(f"the cycles in {name} cannot be read: {error}") from error
@@ -68,7 +68,7 @@ def _cycle(entry: Any) -> TrafficLightCycle:
     _check(entry, "a cycle", _CYCLE, {"group", "phases"})
     group = TrafficLightGroup(map_id=str(entry["group"]))
     if not isinstance(entry["phases"], list):
-        raise ValueError("phases are no list")
+        raise ValueError("phases are not a list")
     number = entry.get("synchronization_group_id")
     return TrafficLightCycle(
         tuple(_phase(each, group) for each in entry["phases"]),
@@ -92,13 +92,13 @@ def _state(value: Any) -> Bulbs:
 
 def _seconds(value: Any) -> float:
     if isinstance(value, bool) or not isinstance(value, int | float):
-        raise ValueError(f"{json.dumps(value)} is no time in seconds")
+        raise ValueError(f"{json.dumps(value)} is not a time in seconds")
     return float(value)
 
 
 def _check(entry: Any, what: str, known: set[str], needed: set[str]) -> None:
     if not isinstance(entry, Mapping):
-        raise ValueError(f"{what} is no object")
+        raise ValueError(f"{what} is not an object")
     for name in (*sorted(needed - entry.keys()), *sorted(entry.keys() - known)):
         word = "has no" if name in needed else "knows no"
         raise ValueError(f"{what} {word} {name}")

@@ -161,5 +161,5 @@ class TrafficLightStopLine(Route):
 
     def _known(self, member: str, value: ValueT | None) -> ValueT:
         if value is None:
-            raise ScenarioError(f"nothing says the {member} of the stop line", self.source)
+            raise ScenarioError(f"the {member} of the stop line is not stated", self.source)
         return value

@@ -312,9 +312,9 @@ def checked(node: Behaviour, status: object) -> Status:
     if status is RUNNING or status is SUCCESS or status is FAILURE:
         if isinstance(node.feedback_message, str):
             return status
-        raise ScenarioError(f"{node.name} gives a reason that is no text")
+        raise ScenarioError(f"{node.name} gives a reason that is not a string")
     shown = status if isinstance(status, Status | None) else f"a {type(status).__name__}"
-    raise ScenarioError(f"{node.name} returns {shown}, no status of a node")
+    raise ScenarioError(f"{node.name} returns {shown}, which is not a status of a node")
 
 
 def pulse_of(child: Behaviour) -> Callable[[], Status]:

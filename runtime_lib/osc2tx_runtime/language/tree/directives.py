@@ -265,7 +265,7 @@ class Until(Node, Decorator):
             self.context.request_settling()
             return RUNNING
         after = self.lasted(ended_late(self.decorated))
-        return self.fail(f"over by itself after {after:g} s, before {self.name}")
+        return self.fail(f"ended by itself after {after:g} s, before {self.name}")
 
     def _is_over(self) -> bool:
         try:

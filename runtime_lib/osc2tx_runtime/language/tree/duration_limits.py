@@ -184,7 +184,7 @@ class DurationLimits:
         if self.is_early(late) and not self._node.context.first_come:
             over = self._node.lasted(late)
             return self._node.fail(
-                f"over after {over:g} s, and nothing in it fills its duration of {self.text}"
+                f"ended after {over:g} s, and none of its members fills its duration of {self.text}"
             )
         if self.fixed is not None and self._node.context.step == self._low[0]:
             self.late = self._low[1]

@@ -20,7 +20,7 @@ def failure_reason(root: Behaviour, context: ExecutionContext) -> str:
         # The losers of a race failed before the race.
         at = getattr(node, "failed_at", None)
         time = context.time if at is None else at
-        why = node.feedback_message or "it gives no reason"
+        why = node.feedback_message or "no reason is given"
         texts.append(f"{named(node)} failed at {time:.3f} s: {why}")
     return "; ".join((*texts, *vain(root)))
 
@@ -42,7 +42,8 @@ def vain(root: Behaviour) -> list[str]:
     nodes = [node for node in root.iterate() if isinstance(node, Node) and node.waits_in_vain()]
     nodes.sort(key=place_key)
     return [
-        f"{named(node)} never happened: its condition held from the start, and only a change counts"
+        f"{named(node)} never occurred: its condition was true from the start, and only a change"
+        " counts"
         for node in nodes
     ]
 

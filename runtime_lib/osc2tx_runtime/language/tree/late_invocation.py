@@ -88,7 +88,7 @@ class LateInvocation(Node):
         if set(root.actors) != known:
             raise UnsupportedError(
                 f"{made.scenario.name} declares actors of its own in an invocation that is made"
-                " when it starts: hand them in",
+                " when it starts: pass them as arguments",
                 self.source or None,
             )
         for placement in invoked_placements(root, made):

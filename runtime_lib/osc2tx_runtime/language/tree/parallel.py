@@ -144,7 +144,7 @@ class Parallel(Composition, ParallelComposite):
             )
             frame = self.frame(self.context)
             if frame.low > frame.high:
-                raise Unplannable("the durations around it leave it no time")
+                raise Unplannable("the enclosing durations leave no time for it")
             plan = make_schedule(parts, sts, ete, frame)
         except Unplannable as problem:
             raise UnsupportedError(

@@ -158,7 +158,9 @@ def framed(
                 offsets[index] = allowed.nearest(wanted)
     whole = _whole(length, offsets, lengths)
     if not frame.low <= whole <= frame.high:
-        raise Unplannable(f"the whole takes {'less' if whole < frame.low else 'more'} than it may")
+        raise Unplannable(
+            f"the composition takes {'less' if whole < frame.low else 'more'} time than allowed"
+        )
     return offsets
 
 

@@ -26,14 +26,14 @@ def external_function(
     """
     if path not in allowed:
         raise SettingsError(
-            f"the scenario calls code from outside, {path}: allow it, --allow-external {path}",
+            f"the scenario calls external code, {path}: allow it with --allow-external {path}",
             source,
         )
     module, _, name = path.rpartition(".")
     with OwnCode(f"no function {path}:", source):
         function = getattr(import_module(module), name)
     if not callable(function):
-        raise ScenarioError(f"{path} is no function", source)
+        raise ScenarioError(f"{path} is not a function", source)
 
     def call(*arguments: Any) -> Any:
         with OwnCode(f"{path} raised", source):
@@ -60,7 +60,7 @@ def as_kind(result: Any, kind: Any, path: str, source: str) -> Any:
     if get_origin(kind) is Literal:
         if not isinstance(result, str) or result not in arguments:
             raise ScenarioError(
-                f"{path} returns {result!r}, which is none of {', '.join(arguments)}", source
+                f"{path} returns {result!r}, which is not one of {', '.join(arguments)}", source
             )
         return result
     if get_origin(kind) is list:

@@ -29,7 +29,7 @@ class Range(Generic[NumberT]):
 
     def __post_init__(self) -> None:
         if not self.low <= self.high:
-            raise ValueError(f"within({self.low}, {self.high}): from the lower to the upper bound")
+            raise ValueError(f"within({self.low}, {self.high}): the lower bound comes first")
 
     @property
     def is_bounded(self) -> bool:
@@ -186,11 +186,11 @@ def draw(
         low, high = max(given.low, domain.low), min(given.high, domain.high)
         if low > high:
             asked, allowed = given.shown(unit), domain.shown(unit)
-            raise ScenarioError(f"{name}: {asked} is asked for, the scenario allows {allowed}")
+            raise ScenarioError(f"{name}: {asked} is requested, the scenario allows {allowed}")
         given = Range(low, high)
     if not given.is_bounded:
         shown = given.shown(unit)
-        raise ScenarioError(f"{name}: {shown} is no finite range to choose from; give a value")
+        raise ScenarioError(f"{name}: {shown} is not a finite range to choose from; give a value")
     return given.draw(generator)
 
 

@@ -113,7 +113,7 @@ class ClientProcess:
             ready, _, _ = select([stream], [], [], most)
             if not ready:
                 self._lost = True
-                raise SimulatorError(f"CARLA does not answer any more (waited {most:g} s)")
+                raise SimulatorError(f"CARLA does not respond any more (waited {most:g} s)")
             received = self._process.stdout.read1(1 << 20)  # type: ignore[attr-defined]
             if not received:
                 raise self._gone()

@@ -44,7 +44,7 @@ def connect(client: ClientProcess, request: WorldRequest, *, ticks: bool) -> str
         if "time-out" not in error.message:
             raise
         raise SimulatorError(
-            f"{where} takes connections, and nothing of CARLA answers within {timeout:g} s: the"
+            f"{where} takes connections, and no CARLA server responds within {timeout:g} s: the"
             " server is still starting (--carla-timeout allows longer), or another program"
             " listens there"
         ) from None
@@ -56,7 +56,7 @@ def connect(client: ClientProcess, request: WorldRequest, *, ticks: bool) -> str
     _check_versions(found["server"], found["client"])
     if found.get("left"):
         client.ask("repair", patience=REPAIRING)
-        complain(f"CARLA: put back what a killed run had changed: {', '.join(found['left'])}")
+        complain(f"CARLA: restored what an interrupted run had changed: {', '.join(found['left'])}")
         found = client.ask("connect", *address, timeout, patience=LOOKING)
     if not found["streams"]:
         raise SimulatorError(_without_streams(found, *address))
@@ -87,17 +87,17 @@ def _without_streams(found: Mapping[str, Any], host: str, port: int) -> str:
     reason = (
         "the level may still be loading (--carla-timeout allows longer)"
         if found["stream_port"]
-        else f"nothing answers at {host}:{port + 1}, where they come from: open or publish that"
+        else f"nothing responds at {host}:{port + 1}, where they come from: open or publish that"
         " port as well"
     )
-    return f"CARLA {found['server']} at {host}:{port} answers, and sends no snapshots: {reason}"
+    return f"CARLA {found['server']} at {host}:{port} responds, but sends no snapshots: {reason}"
 
 
 def _take_over(client: ClientProcess, request: WorldRequest) -> None:
     """End a synchronous mode without steps, if requested."""
     if not request.options.get("carla_reset", False):
         raise SimulatorError(
-            "CARLA is in synchronous mode, and no client makes its steps: one that ended left it"
+            "CARLA is in synchronous mode, and no client ticks it: one that ended left it"
             " so. --carla-reset ends that mode"
         )
     client.ask("free_time")
@@ -108,8 +108,8 @@ def _wrong_time(synchronous: bool) -> SimulatorError:
     """Return why the steps cannot be made as this run requires."""
     if synchronous:
         return SimulatorError(
-            "CARLA is in synchronous mode already: another client makes its steps. End that one,"
-            " or leave the steps to it with --no-tick"
+            "CARLA is in synchronous mode already: another client ticks it. End that one,"
+            " or leave the ticks to it with --no-tick"
         )
     return SimulatorError(
         "--no-tick leaves the steps to another client, and CARLA is not in synchronous mode: its"

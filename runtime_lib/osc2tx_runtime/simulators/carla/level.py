@@ -85,7 +85,7 @@ def _loaded(
 
 def _reload(client: ClientProcess, name: str, patience: float) -> None:
     """Make the server reload its level, with initial lights, weather and actors."""
-    complain(f"CARLA: loading {name} anew")
+    complain(f"CARLA: reloading {name}")
     with _in_time(f"loaded {name}", patience):
         client.ask("reload", patience, patience=2.0 * patience)
 

@@ -87,7 +87,7 @@ class CarlaPlant:
             wanted = "external" if self._spawning.awaited(actor) else self._default
             return wanted if drives else "exact"
         if not drives and wanted != "exact":
-            raise SettingsError(f"--control {actor}={wanted}: {actor} is nothing that drives")
+            raise SettingsError(f"--control {actor}={wanted}: {actor} cannot drive")
         return wanted
 
     def _default_control(self, sensors: SensorStacks) -> ControlMode:
@@ -210,10 +210,11 @@ class CarlaPlant:
         looked = self._client.ask("step", batch)
         if looked["skipped"]:
             raise SimulatorError(
-                "another client makes steps of CARLA, too: only one can (--no-tick leaves it to it)"
+                "another client ticks CARLA as well: only one client can (--no-tick leaves it to"
+                " the other)"
                 if self._ticks
                 else f"CARLA advanced {looked['skipped'] + 1} steps at once: this run is too slow"
-                " for the client that makes them"
+                " for the client that ticks"
             )
         if abs(looked["dt"] - self._dt) > SAME_DT:
             raise SimulatorError(
@@ -276,7 +277,7 @@ class CarlaPlant:
             self._displaced.add(actor)
         else:
             raise SimulatorError(
-                f"{actor} is not where it was put in CARLA: another client moves it"
+                f"{actor} is not at the position that was set in CARLA: another client moves it"
                 f" (--control {actor}=external leaves it to it)"
             )
 

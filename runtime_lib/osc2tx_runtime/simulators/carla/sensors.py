@@ -82,11 +82,11 @@ def _sensor(path: Path, written: Any) -> Sensor:
         x, y, z, roll, pitch, yaw = (float(point.get(axis, 0.0)) for axis in AXES)
         attributes = {key: str(value) for key, value in written.get("attributes", {}).items()}
         if not all(map(isfinite, (x, y, z, roll, pitch, yaw))):
-            raise ValueError("a place is no number")
+            raise ValueError("a coordinate is not a number")
     except (ArithmeticError, AttributeError, KeyError, TypeError, ValueError) as error:
         raise InputError(f"{path}: a sensor needs id, type and spawn_point ({error})") from error
     if not kind.startswith("sensor."):
-        raise InputError(f"{path}: {name}: {kind} is no blueprint of a sensor")
+        raise InputError(f"{path}: {name}: {kind} is not a blueprint of a sensor")
     return Sensor(name, kind, (x, -y, z, -pitch, -yaw, roll), attributes)
 
 

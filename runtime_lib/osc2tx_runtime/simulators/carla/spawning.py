@@ -64,7 +64,8 @@ class Spawning:
         found = self._client.ask("find", role, patience, patience=patience)
         if not found:
             raise SimulatorError(
-                f"--wait-for {spec.id}: no actor with role_name {role} came within {patience:g} s"
+                f"--wait-for {spec.id}: no actor with role_name {role} appeared within"
+                f" {patience:g} s"
             )
         if len(found) > 1:
             names = ", ".join(f"{each['type']} {each['id']}" for each in found)

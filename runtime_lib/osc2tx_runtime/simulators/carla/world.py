@@ -92,7 +92,7 @@ OPTIONS: tuple[Option, ...] = (
     Option("carla", "HOST:PORT", "where the server is", parse_address, default="localhost:2000"),
     Option.flag("carla-load", "load the scenario's map if the server has another one"),
     Option.flag("carla-keep", "leave the map there that --carla-load has loaded"),
-    Option.flag("carla-reload", "load the level anew, if it is the right one already"),
+    Option.flag("carla-reload", "reload the level, even if it is already the right one"),
     Option(
         "carla-timeout",
         "SECONDS",
@@ -103,12 +103,12 @@ OPTIONS: tuple[Option, ...] = (
     Option(
         "wait-for",
         "ACTOR[=SECONDS]",
-        "take over this actor from another client, and leave it in the end",
+        "take over this actor from another client, and keep it at the end",
         parse_wait,
         dict,
     ),
     Option("sensors", "ACTOR=FILE", "sensors to attach to an actor (JSON)", parse_sensors, dict),
-    Option.flag("no-tick", "another client makes the steps"),
+    Option.flag("no-tick", "another client ticks the world"),
     Option.flag("carla-reset", "end a synchronous mode that a client has left behind"),
     Option("carla-view", "ACTOR", "have the camera of the server's window follow an actor", str),
     Option(

@@ -32,9 +32,9 @@ def command_problem(command: object, slot: str, actors: Collection[str]) -> str:
     """
     kind = type(command)
     if not isinstance(command, Command) or kind is Command:
-        return f"a {kind.__name__} is no command"
+        return f"a {kind.__name__} is not a command"
     if kind not in COMMANDS[slot] and kind is not ReplayTrajectory:
-        return f"{kind.__name__} is no command of the {slot} slot"
+        return f"{kind.__name__} is not a command of the {slot} slot"
     problem = problem_of(command, kind)
     if problem:
         return f"{kind.__name__}: {problem}"

@@ -88,10 +88,10 @@ def _any_of(checks: list[Check], *, may_be_none: bool) -> Check:
 
 def _number_problem(value: Any) -> str:
     if isinstance(value, bool) or not isinstance(value, Real):
-        return f"is {_shown(value)}, no number"
+        return f"is {_shown(value)}, not a number"
     number: Any = value
     if not abs(number) <= LARGEST:  # nan is not either
-        return f"is {_shown(number)}, no number that a world can have"
+        return f"is {_shown(number)}, which is not a number that a world can have"
     return ""
 
 

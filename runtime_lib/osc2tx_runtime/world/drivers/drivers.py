@@ -109,7 +109,7 @@ class DriversPlant:
         for actor in self._drivers:
             setpoint = setpoints.get(actor)
             if setpoint is None or not setpoint.spec.shape.wheelbase:
-                raise SettingsError(f"--ego {actor}: {actor} is no vehicle of the scenario")
+                raise SettingsError(f"--ego {actor}: {actor} is not a vehicle of the scenario")
             self._put(setpoint)
         self._lines = StopLines(scene.map, scene.signals)
         return {actor: self._measured(scene, setpoints[actor]) for actor in self._drivers}
@@ -150,9 +150,9 @@ class DriversPlant:
         with OwnCode(f"{name} raised"):
             control = driver.step(observation, scene.dt)
             if not isinstance(control, Control):
-                raise ScenarioError(f"{name} answers a {type(control).__name__}, not a Control")
+                raise ScenarioError(f"{name} returns a {type(control).__name__}, not a Control")
             if problem := problem_of(control, Control):
-                raise ScenarioError(f"{name} answers a Control whose {problem}")
+                raise ScenarioError(f"{name} returns a Control whose {problem}")
             return Control(float(control.acceleration), float(control.steering))
 
     def _measured(self, scene: Scene, setpoint: Setpoint) -> Measurement:

@@ -42,7 +42,7 @@ def lanes_to_left(road_map: RoadMap, place: LanePosition, lane: LanePosition) ->
     numbers = [number_of_lane(road_map, each, "right") for each in (lane, place)]
     for each, number in zip((lane, place), numbers, strict=True):
         if number == 0:
-            raise ScenarioError(f"lane {each.lane} of road {each.road} is no driving lane")
+            raise ScenarioError(f"lane {each.lane} of road {each.road} is not a driving lane")
     over, beyond = _lanes_beyond(road_map, lane), _lanes_beyond(road_map, place)
     if not are_opposed(road_map, place, lane):
         return numbers[0] + over - numbers[1] - beyond
@@ -50,7 +50,7 @@ def lanes_to_left(road_map: RoadMap, place: LanePosition, lane: LanePosition) ->
         if found.lane == lane.lane:
             return lanes - over - beyond
     raise ScenarioError(
-        f"lane {lane.lane} of road {lane.road} is no driving lane beside lane {place.lane}"
+        f"lane {lane.lane} of road {lane.road} is not a driving lane beside lane {place.lane}"
     )
 
 

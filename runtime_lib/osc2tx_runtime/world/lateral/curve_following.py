@@ -128,13 +128,13 @@ class Follow:
         elif self._joined and away > _LOST:
             radius = 1.0 / self._steering.sharpest(me.v)
             self._failed = (
-                f"it came {away:.1f} m off the path, because at {me.v:.1f} m/s it cannot turn in"
-                f" less than {radius:.1f} m"
+                f"it deviated {away:.1f} m from the path, because at {me.v:.1f} m/s its turning"
+                f" radius is at least {radius:.1f} m"
             )
         elif not self._joined:
             self._left -= abs(path)
             if self._left < 0.0:
-                self._failed = f"it does not get onto the path, which is {away:.1f} m away"
+                self._failed = f"it does not reach the path, which is {away:.1f} m away"
         return pose, speed
 
     def slid(self, along: float) -> None:

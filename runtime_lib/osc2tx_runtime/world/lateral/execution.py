@@ -268,7 +268,9 @@ def lateral_of(
                 # Interrupted before that: back to the present lane.
             start, end = offset_from(road_map, target, x, y), 0.0
         case _:
-            raise UnsupportedError(f"{type(command).__name__} is no command for an actor on a lane")
+            raise UnsupportedError(
+                f"{type(command).__name__} is not a command for an actor on a lane"
+            )
     centre = target.offset
     course: Profile
     if isinstance(command, (LaneChange, LaneOffset)) and command.course is not None:
@@ -316,14 +318,14 @@ def excessive_shift(
     if duration >= least - 1e-9:
         return None
     return (
-        f"{abs(offset - here):.1f} m sideways in {duration:g} s takes more than"
-        f" {limits.lateral:g} m/s^2; {least:.2f} s are possible"
+        f"a lateral displacement of {abs(offset - here):.1f} m in {duration:g} s requires more"
+        f" than {limits.lateral:g} m/s^2; the shortest possible duration is {least:.2f} s"
     )
 
 
 def _no_lane(road_map: RoadMap, place: LanePosition, lanes: int) -> str:
     side = "left" if lanes > 0 else "right"
-    count = "is no driving lane" if abs(lanes) == 1 else f"are not {abs(lanes)} driving lanes"
+    count = "is not a driving lane" if abs(lanes) == 1 else f"are not {abs(lanes)} driving lanes"
     return (
         f"there {count} to the {side} of lane {place.lane} of road {place.road}"
         f" at s = {place.s:.1f} m"

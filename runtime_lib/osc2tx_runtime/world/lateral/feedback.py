@@ -89,7 +89,7 @@ class BesideRun:
         other = self._other.state(inputs)
         to_left, moving = inputs.aside(me, other), drift(me, other)
         if to_left is None:
-            self._failed = f"there is no way along lanes to {command.reference}"
+            self._failed = f"there is no route along lanes to {command.reference}"
             return offset, 0.0
         if self._steps is None and command.duration is not None:
             self._steps = max(whole_steps(command.duration, dt), 1)
@@ -161,7 +161,7 @@ class BesideRun:
     def _miss(self, missed: float) -> None:
         if abs(missed) > _NEAR:
             self._failed = (
-                f"when its time is over it is {abs(missed):.2f} m from its place beside"
+                f"at the end of its duration it is {abs(missed):.2f} m from its position beside"
                 f" {self._command.reference}"
             )
 

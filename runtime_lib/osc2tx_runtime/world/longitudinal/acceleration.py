@@ -101,7 +101,9 @@ class AccelerationRun:
             return REACHED
         if self._standing:
             end = self._profile.value(self._profile.duration)
-            return Progress(False, f"it stands before its acceleration is {end:g} m/s^2")
+            return Progress(
+                False, f"it comes to a standstill before its acceleration is {end:g} m/s^2"
+            )
         return PENDING
 
     @property

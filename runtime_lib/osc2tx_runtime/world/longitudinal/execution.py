@@ -102,7 +102,7 @@ class _CourseRun(ProfileRun):
         possible = towards(me.v, speed, limits, 1.0 + 1e-9, inputs.dt)
         if possible != speed and self._failed is None:
             rate = (speed - me.v) / inputs.dt
-            self._failed = f"its shape asks for {rate:.2f} m/s^2, which is more than it can do"
+            self._failed = f"its shape requires {rate:.2f} m/s^2, which exceeds its limit"
         return possible
 
     def progress(self) -> Progress:
@@ -212,8 +212,8 @@ def excessive_rate(command: SpeedChange, speed: float, limits: Limits = TYRES) -
         change = factor * abs(command.target - speed)
         if change > cap * command.duration * (1.0 + 1e-9):
             return (
-                f"{speed:.1f} to {command.target:.1f} m/s in {command.duration:g} s takes more"
-                f" than {most}"
+                f"a change from {speed:.1f} to {command.target:.1f} m/s in {command.duration:g} s"
+                f" requires more than {most}"
             )
     return None
 
@@ -235,9 +235,7 @@ def excessive_acceleration(value: float, speed: float, limits: Limits = TYRES) -
     cap = limits.acceleration if value * speed >= 0.0 else limits.deceleration
     if abs(value) <= cap * (1.0 + 1e-9):
         return None
-    return (
-        f"an acceleration of {value:.2f} m/s^2 is beyond the {cap:.4g} m/s^2 it can do{limits.road}"
-    )
+    return f"an acceleration of {value:.2f} m/s^2 exceeds its limit of {cap:.4g} m/s^2{limits.road}"
 
 
 def acceleration_of(run: Longitudinal | None, me: ActorState) -> float:
@@ -289,4 +287,4 @@ def longitudinal_of(
             return CoverRun(command, limits)
         case Arrive():
             return ArrivalRun(command, limits)
-    raise UnsupportedError(f"{type(command).__name__} is no longitudinal command")
+    raise UnsupportedError(f"{type(command).__name__} is not a longitudinal command")

@@ -231,13 +231,16 @@ class ArrivalRun:
 
     def _judge(self, missed: float, speed: float, end: float | None) -> None:
         limits = self._limits
-        can = f"it can do {limits.acceleration:g} and -{limits.deceleration:g} m/s^2"
+        can = f"its limits are {limits.acceleration:g} and -{limits.deceleration:g} m/s^2"
         if abs(missed) > self._near:
             side = "short of" if missed > 0.0 else "beyond"
-            reason = f"when its time is over it is {abs(missed):.1f} m {side} its place; {can}"
+            reason = (
+                f"at the end of its duration it is {abs(missed):.1f} m {side} its target position;"
+                f" {can}"
+            )
             self._progress = Progress(False, reason)
         elif end is not None and abs(speed - end) > _SPEED_TOLERANCE:
-            reason = f"it comes to its place at {speed:.1f} m/s, not {end:.1f} m/s; {can}"
+            reason = f"it reaches its target position at {speed:.1f} m/s, not {end:.1f} m/s; {can}"
             self._progress = Progress(False, reason)
         else:
             self._progress = REACHED
@@ -269,4 +272,4 @@ def allowed_gap(
 
 
 def _no_way(command: KeepGap) -> str:
-    return f"there is no way along lanes to {command.reference}"
+    return f"there is no route along lanes to {command.reference}"

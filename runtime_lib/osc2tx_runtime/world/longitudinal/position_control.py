@@ -72,7 +72,9 @@ class PlacedRun:
         self._done = True
         if abs(missed) > _NEAR:
             side = "short of" if missed > 0.0 else "beyond"
-            self._failed = f"at the end of its shape it is {abs(missed):.1f} m {side} its place"
+            self._failed = (
+                f"at the end of its shape it is {abs(missed):.1f} m {side} its target position"
+            )
 
 
 class CoverRun(PlacedRun):
@@ -124,7 +126,7 @@ class GapCourseRun(PlacedRun):
         other = self._other.state(inputs)
         here = inputs.along(other, me)
         if here is None:
-            self._failed = f"there is no way along lanes to {self._reference}"
+            self._failed = f"there is no route along lanes to {self._reference}"
             return me.v
         its_speed = other.v + other.a * dt
         its_way = 0.5 * (other.v + its_speed) * dt

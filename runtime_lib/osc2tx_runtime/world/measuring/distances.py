@@ -39,7 +39,7 @@ def object_distance(
             return dz
         case "euclidean":
             return math.sqrt(dx * dx + dy * dy + dz * dz)
-    raise ScenarioError(f"`{direction}` is no direction of a distance")
+    raise ScenarioError(f"`{direction}` is not a direction of a distance")
 
 
 def _box_distance(caller: ActorState, reference: ActorState, direction: DistanceDirection) -> float:

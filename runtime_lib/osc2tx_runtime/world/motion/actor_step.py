@@ -167,7 +167,7 @@ class MovingActor(MovingBody):
     ) -> ActorState:
         """Continues straight beyond the end of its lane, and brakes there."""
         self.blocked = (
-            f"{self.spec.id} has come to the end of lane {place.lane} of road {place.road}"
+            f"{self.spec.id} has reached the end of lane {place.lane} of road {place.road}"
         )
         end = road_map.pose(place)
         if self.residual is not None:

@@ -142,7 +142,7 @@ class CheckedPlant:
         found = self._calls.ask(method, call, Mapping)
         for actor, measurement in found.items():
             if actor not in scene.setpoints:
-                self._calls.refuse(method, f"measures {actor!r:.40}, which is no actor")
+                self._calls.refuse(method, f"measures {actor!r:.40}, which is not an actor")
             problem = problem_of(measurement, Measurement)
             if problem:
                 self._calls.refuse(method, f"{actor}: {problem}")

@@ -198,7 +198,7 @@ class Scene:
         """Reports a jack-knifed trailer with its angle (rad)."""
         degrees, time = round(math.degrees(angle), 1), self.step * self.dt
         self.note("jack_knife", actor=trailer, tow=tow, angle=degrees)
-        self.warn(f"{trailer} jack-knifes at {time:.2f} s: it stands at {degrees:g}° to {tow}")
+        self.warn(f"{trailer} jackknifes at {time:.2f} s: its angle to {tow} is {degrees:g}°")
 
     def warn(self, text: str) -> None:
         """Warns once about an impossible command; the run continues."""

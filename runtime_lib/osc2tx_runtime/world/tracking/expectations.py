@@ -150,7 +150,7 @@ def _speed(
 
 
 def _gap(command: KeepGap | GapCourse) -> Judge:
-    no_way = Progress(False, f"there is no way along lanes to {command.reference}")
+    no_way = Progress(False, f"there is no route along lanes to {command.reference}")
 
     def judge(me: ActorState, inputs: StepInputs) -> Progress:
         if isinstance(command, KeepGap):
@@ -193,7 +193,7 @@ def _missing_rate(command: Sideways, me: ActorState, inputs: StepInputs) -> floa
 
 
 def _beside(command: Beside) -> Judge:
-    no_way = Progress(False, f"there is no way along lanes to {command.reference}")
+    no_way = Progress(False, f"there is no route along lanes to {command.reference}")
     low = _last(command.course, command.left or 0.0)
 
     def judge(me: ActorState, inputs: StepInputs) -> Progress:

@@ -46,8 +46,8 @@ class Arrival:
             missing = gap_error(command.gap, me, inputs)
         if missing is None:
             assert command.gap is not None
-            return Progress(False, f"there is no way along lanes to {command.gap.reference}")
-        place = _at_its_time(missing, PLACE_TOLERANCE, "m short of its place")
+            return Progress(False, f"there is no route along lanes to {command.gap.reference}")
+        place = _at_its_time(missing, PLACE_TOLERANCE, "m short of its target position")
         match command.speed:
             case None:
                 return place
@@ -107,4 +107,4 @@ def gap_error(command: KeepGap, me: ActorState, inputs: StepInputs) -> float | N
 def _at_its_time(missing: float, tolerance: float, words: str) -> Progress:
     if abs(missing) <= tolerance:
         return REACHED
-    return Progress(False, f"when its time is over it is {missing:.1f} {words}")
+    return Progress(False, f"at the end of its duration it is {missing:.1f} {words}")

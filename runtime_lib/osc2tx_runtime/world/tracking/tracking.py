@@ -72,23 +72,23 @@ class Tracking:
             return commanded
         off = self._deviation
         if self._astray > _LEFT:
-            return Progress(False, f"it came {abs(off.place):.1f} m off its path")
+            return Progress(False, f"it deviated {abs(off.place):.1f} m from its path")
         if not commanded.done:
             return PENDING
         missed = self._missed(slot, off)
         if missed is None:
             return REACHED
         if self._late.get(slot, 0.0) > PATIENCE:
-            return Progress(False, f"{missed}, {PATIENCE:g} s after it was to be there")
+            return Progress(False, f"{missed}, {PATIENCE:g} s after its time of arrival")
         return PENDING
 
     def _missed(self, slot: str, off: Deviation) -> str | None:
         """The deviation at the present step; None if all is within the tolerances."""
         if slot == LONGITUDINAL:
             most = 0.0 if self._standing else SPEED_TOLERANCE
-            return f"it is {off.speed:+.2f} m/s off its speed" if abs(off.speed) > most else None
+            return f"its speed deviates by {off.speed:+.2f} m/s" if abs(off.speed) > most else None
         if abs(off.place) > PLACE_TOLERANCE:
-            return f"it is {abs(off.place):.2f} m beside its path"
+            return f"it is {abs(off.place):.2f} m off its path"
         if abs(off.heading) > HEADING_TOLERANCE:
-            return f"it is turned {math.degrees(off.heading):+.1f} degrees off its path"
+            return f"its heading deviates by {math.degrees(off.heading):+.1f} degrees from its path"
         return None

@@ -25,7 +25,7 @@ scenario top:
         {modifier}
         speed(10mps)
 """
-TAKEN = "the scenario says where it starts, so it takes no --spawn"
+TAKEN = "the scenario states where it starts, so --spawn does not apply"
 
 
 @pytest.mark.parametrize(

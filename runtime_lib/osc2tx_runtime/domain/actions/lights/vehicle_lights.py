@@ -38,7 +38,7 @@ class SetLights(Action):
         super().__init__(actor, *modifiers, **options)
         if mode not in get_args(LightMode):
             known = ", ".join(get_args(LightMode))
-            raise ScenarioError(f"{self.action_name}: mode `{mode}` is none of {known}")
+            raise ScenarioError(f"{self.action_name}: mode `{mode}` is not one of {known}")
         self.mode: LightMode = mode
 
     def on_start(self) -> None:

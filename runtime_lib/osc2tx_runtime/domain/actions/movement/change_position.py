@@ -101,7 +101,7 @@ class ChangePosition(CourseAction):
         if not isinstance(place, LanePosition):
             on = road_map.locate(place.x, place.y, place.z, max_distance=1e-3)
             if on is None:
-                raise PathError(f"no driving lane is at ({place.x:g}, {place.y:g})")
+                raise PathError(f"there is no driving lane at ({place.x:g}, {place.y:g})")
             place = on
         if here is None or road_map.lane_type(here.road, here.lane, here.s) not in DRIVING:
             raise PathError(f"{self.actor.id} is on no driving lane to start from")

@@ -80,8 +80,8 @@ class _OneAxis(ModifiableAction):
         super().setup(**kwargs)
         if self.may_jump:
             raise UnsupportedError(
-                f"{self.action_name}: a distance to another actor is reached by moving, not by a"
-                " jump",
+                f"{self.action_name}: a distance to another actor cannot be reached"
+                " instantaneously",
                 self.source or None,
             )
 
@@ -108,7 +108,9 @@ class _ChangeGap(_OneAxis):
         super().__init__(actor, *modifiers, reference=reference, across=across, **options)
         if direction not in _DIRECTIONS:
             known = ", ".join(_DIRECTIONS)
-            raise ScenarioError(f"{self.action_name}: direction `{direction}` is none of {known}")
+            raise ScenarioError(
+                f"{self.action_name}: direction `{direction}` is not one of {known}"
+            )
         if self.measure == "headway" and across:
             raise ScenarioError(f"{self.action_name}: a headway is ahead or behind")
         self.target = target
@@ -227,8 +229,8 @@ class _KeepGap(_OneAxis):
             raise Refused(error.message) from error
         if math.isinf(size):
             along = self.direction == "longitudinal"
-            why = "the trailing one stands" if along else "none comes nearer"
-            raise Refused(f"there is no time between actors of which {why}")
+            why = "the follower is at a standstill" if along else "the distance does not decrease"
+            raise Refused(f"there is no time gap between the actors: {why}")
         if self.direction == "lateral":
             self.command(LATERAL, self.beside(abs(size), left=size >= 0.0))
         else:

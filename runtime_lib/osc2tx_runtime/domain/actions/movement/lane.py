@@ -148,7 +148,9 @@ class ChangeLane(_OnLane):
     ) -> None:
         super().__init__(actor, *modifiers, course=(rate_profile, rate_peak), **options)
         if side is not None and not callable(side) and side not in SIDES:
-            raise ScenarioError(f"{self.action_name}: side `{side}` is none of {', '.join(SIDES)}")
+            raise ScenarioError(
+                f"{self.action_name}: side `{side}` is not one of {', '.join(SIDES)}"
+            )
         self.num_of_lanes = num_of_lanes
         self.side = side
         self.reference = None if reference is actor else reference  # it starts from its own lane
@@ -167,7 +169,7 @@ class ChangeLane(_OnLane):
         if not leads_beside(graph_of(self.world.map), place, lanes):
             side = "left" if lanes > 0 else "right"
             raise BeyondMapError(
-                f"nowhere on its way are there {count} driving lanes to the {side} of lane"
+                f"no part of its route has {count} driving lanes to the {side} of lane"
                 f" {place.lane} of road {place.road}",
                 self.source,
             )
@@ -177,7 +179,10 @@ class ChangeLane(_OnLane):
         lanes = self._lanes()
         if lanes == 0:
             lane = self.place_of(self.actor.id).lane
-            raise Refused(f"it is in the lane to change to already, lane {lane}; follow_lane stays")
+            raise Refused(
+                f"it is already in lane {lane}, the target of the lane change;"
+                " follow_lane stays in it"
+            )
         self._beside = self._lane_of_reference()
         self.shift(lanes, value_of(self.offset), self.time_frame())
 
@@ -268,8 +273,8 @@ class FollowLane(_OnLane):
         if lanes != 0:
             side = "left" if lanes > 0 else "right"
             raise Refused(
-                f"the lane to follow is {abs(lanes)} to the {side} of the one it is in;"
-                " change_lane goes there"
+                f"the lane to follow is {abs(lanes)} to the {side} of the present one;"
+                " change_lane leads to it"
             )
         low, high = band_of(self.offset, self.offset_range)
         here = self.place_of(self.actor.id).offset - target_of_shift(self, 0).offset

@@ -253,7 +253,9 @@ class ModifiableAction(ModifiedMotion):
                 return Status.RUNNING
         status = super().on_update()
         if status is Status.RUNNING and self._is_beyond_goal():
-            return self.fail(f"it has gone {self._to_cover:g} m, {self._not_reached(earlier=True)}")
+            return self.fail(
+                f"it has covered {self._to_cover:g} m, {self._not_reached(earlier=True)}"
+            )
         return status
 
     def _is_beyond_goal(self) -> bool:
@@ -281,7 +283,7 @@ class ModifiableAction(ModifiedMotion):
         what = " and ".join(dict.fromkeys(f"`{name}(at: end)`" for name in ends)) or "its goal"
         if earlier:
             return f"before {what} is reached"
-        return f"its time is over before {what} is reached; give it more, or none"
+        return f"its duration ends before {what} is reached; state a longer one, or none"
 
     # --- goals --------------------------------------------------------------------------------
 

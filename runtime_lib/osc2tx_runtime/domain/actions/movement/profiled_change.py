@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 def check_profile(name: str, profile: str) -> None:
     """Rejects a profile that does not exist."""
     if profile not in PROFILES:
-        raise ScenarioError(f"{name}: rate_profile `{profile}` is none of {', '.join(PROFILES)}")
+        raise ScenarioError(f"{name}: rate_profile `{profile}` is not one of {', '.join(PROFILES)}")
 
 
 def peak_of(value: Value | None, unit: str) -> float | None:

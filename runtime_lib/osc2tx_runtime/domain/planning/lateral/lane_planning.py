@@ -45,7 +45,7 @@ def beside_command(action: ModifiedMotion, lateral: Lateral) -> Command:
         return beside
     to_left = lateral_on_road(action.world.map, action.here, other)
     if to_left is None:
-        raise Refused(f"there is no way along lanes to {lateral.side_of.id}")
+        raise Refused(f"there is no route along lanes to {lateral.side_of.id}")
     own = _own(action, lateral, other.width, oncoming)
     if own is not None:
         return replace(beside, course=own)

@@ -79,7 +79,7 @@ def _course(action: ModifiedMotion, speed: Speed, start: float, end: float) -> P
     rates = (course.rate(course.duration * i / 40.0) for i in range(40))
     if course.duration and max(map(abs, rates)) > most * 1.01:
         raise Refused(
-            f"{start:.1f} to {end:.1f} m/s across its lane in {course.duration:.2f} s takes more"
-            f" than {most:g} m/s^2"
+            f"a lateral speed change from {start:.1f} to {end:.1f} m/s in {course.duration:.2f} s"
+            f" requires more than {most:g} m/s^2"
         )
     return course

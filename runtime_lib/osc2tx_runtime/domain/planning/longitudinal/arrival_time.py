@@ -53,7 +53,7 @@ def _missing(action: ModifiedMotion, gap: KeepGap) -> tuple[float, float]:
     me, other = action.here, action.world.state(gap.reference)
     along = along_lanes(action.world.map, other, me)
     if along is None:
-        raise Refused(f"there is no way along lanes to {gap.reference}")
+        raise Refused(f"there is no route along lanes to {gap.reference}")
     here = along
     if gap.measure == "gap":
         here = gap_between(along, me.shape, other.shape)

@@ -36,7 +36,7 @@ def distance_to_cover(action: ModifiedMotion) -> float | None:
     if way is None or (watched_place(action) is not None and not counted):
         return None
     if way[1] < 0.0:
-        raise Refused(f"the place it is to be at lies {-way[1]:.1f} m behind it")
+        raise Refused(f"its target position is {-way[1]:.1f} m behind it")
     if action.duration is None and not action.end_is_known:
         return max(way[0], 0.0)
     return None if speed_at_end(action) is not None else max(way[0], 0.0)
@@ -99,10 +99,10 @@ def _way_to_point(
 ) -> float:
     on = action.world.map.locate(x, y, z)
     if on is None:
-        raise Refused(f"no lane is near ({x:g}, {y:g})")
+        raise Refused(f"there is no lane near ({x:g}, {y:g})")
     way = action.world.map.route_distance(here, LanePosition(on.road, on.lane, on.s))
     if way is None:
-        raise Refused(f"no lane leads from {action.actor.id} to ({x:g}, {y:g})")
+        raise Refused(f"no route along lanes leads from {action.actor.id} to ({x:g}, {y:g})")
     return way
 
 

@@ -116,9 +116,7 @@ def stop_command(action: ModifiedMotion, *, at_once: bool = False) -> Command:
         return Standstill()
     speed = action.here.v
     if abs(speed) > STANDS and (at_once or action.option() == "must_be_physical"):
-        raise Refused(
-            f"it moves at {speed:.2f} m/s, so it cannot stay where it is; let it stop before"
-        )
+        raise Refused(f"it moves at {speed:.2f} m/s, so it cannot keep its position; stop it first")
     return Standstill()
 
 
@@ -335,7 +333,7 @@ def _gap(action: ModifiedMotion, position: Position) -> Command:
     if high <= 0.0 and low < 0.0:  # a negative distance is on the other side
         low, high, ahead = -high, -low, not ahead
     if position.timed and low < 0.0:
-        raise Refused("a range of times ahead and behind at once is none it can keep")
+        raise Refused("a range of times that is both ahead and behind cannot be kept")
     gap = KeepGap(
         reference.id,
         ahead,

@@ -86,7 +86,7 @@ def check_way_to_gap(action: ModifiedMotion, position: Position, time: float | N
     beyond = time is not None and abs(way.speed) * time > _ONE_WAY * abs(missing)
     if abs(missing) > _THERE and (away or (beyond and way.speed != 0.0)):
         raise Refused(
-            f"position: it would have to turn back, for the distance changes by {way.speed:.2f} m/s"
+            f"position: it would have to reverse, for the distance changes by {way.speed:.2f} m/s"
             f" and is to change by {missing:.2f} m"
         )
 
@@ -136,7 +136,7 @@ def _gap(action: ModifiedMotion, modifier: Placing) -> _Way:
     other = action.world.state(modifier.reference.id)
     ahead = along_lanes(action.world.map, other, action.here)
     if ahead is None:
-        raise Refused(f"there is no way along lanes to {modifier.reference.id}")
+        raise Refused(f"there is no route along lanes to {modifier.reference.id}")
     sign = 1.0 if modifier.ahead else -1.0
     least, most = modifier.size()
     here = sign * ahead

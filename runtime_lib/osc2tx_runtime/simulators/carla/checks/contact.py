@@ -58,7 +58,7 @@ def streams(probe: Probe) -> Finding:
     port = probe.address[1] + 1
     if probe.contact["stream_port"]:
         return differs("no snapshots arrive", "the level may still be loading (--carla-timeout)")
-    return differs(f"nothing answers at port {port}", f"open or publish port {port} as well")
+    return differs(f"nothing responds at port {port}", f"open or publish port {port} as well")
 
 
 @line(6, "time", blocks=True)
@@ -67,13 +67,13 @@ def time(probe: Probe) -> Finding:
     left = ", ".join(probe.contact["left"])
     if left and probe.request.fixes:
         probe.client.ask("repair", patience=REPAIRING)
-        return ok(f"put back what a killed run had changed: {left}")
+        return ok(f"restored what an interrupted run had changed: {left}")
     if left:
-        return ok(f"the next run, or --fix, puts back what a killed run has changed: {left}")
+        return ok(f"the next run, or --fix, restores what an interrupted run has changed: {left}")
     if not probe.contact["synchronous"]:
         return ok("free")
     if probe.contact["ticks"]:
-        return differs("another client makes the steps", "end it, or run with --no-tick")
+        return differs("another client ticks the world", "end it, or run with --no-tick")
     if probe.request.fixes:
         probe.client.ask("free_time")
         return ok("free; a synchronous mode that a client had left behind was ended")

@@ -59,7 +59,7 @@ def gains(probe: Probe) -> Finding:
         if abs(value / getattr(used, name) - 1.0) > ALIKE
     ]
     if proposed:
-        return differs(found, f"{' '.join(proposed)} has driven cars accelerate as they are told")
+        return differs(found, f"{' '.join(proposed)} makes driven cars accelerate as commanded")
     return ok(found)
 
 

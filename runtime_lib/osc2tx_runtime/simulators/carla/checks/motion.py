@@ -43,7 +43,7 @@ def steps(probe: Probe) -> Finding:
     looked = [driver.ask("step", []) for _ in range(6)][1:]
     lengths = sorted({each["dt"] for each in looked})
     if any(each["skipped"] for each in looked):
-        return differs("steps were made by another client as well", "end it, or --no-tick")
+        return differs("another client ticked as well", "end it, or --no-tick")
     if any(abs(each - dt) > SAME_DT for each in lengths):
         return differs(
             f"steps are {', '.join(f'{each:g}' for each in lengths)} s long, not {dt:g} s",
@@ -115,7 +115,7 @@ def exact(probe: Probe) -> Finding:
             off = max(off, math.dist(state[:3], pose[:3]))
             speeds.append(math.hypot(*state[6:9]))
     if off > EXACT:
-        return differs(f"{1e3 * off:.1f} mm from where it was put", "runs refuse that")
+        return differs(f"{1e3 * off:.1f} mm from the position that was set", "runs refuse that")
     found = f"within {1e3 * off:.2f} mm; others see {max(speeds):.1f} m/s"
     watched = [each for each in probe.request.world.control.values() if each != "exact"]
     if max(speeds) < 0.5 * MOVED / probe.request.world.dt and watched:
@@ -141,7 +141,7 @@ def kick(probe: Probe) -> Finding:
         speed = math.hypot(*state_in(looked, actor)[6:8])
     found = f"{speed:.1f} of {KICK:g} m/s after a second without pedals"
     if speed < KEPT:
-        return differs(found, "driven and external actors start slower than the scenario says")
+        return differs(found, "driven and external actors start slower than the scenario states")
     return ok(found)
 
 

@@ -115,7 +115,7 @@ def _asleep(probe: Probe) -> Finding:
     return ok(plain_name(probe.level["name"]))
 
 
-@line(12, "actors of others")
+@line(12, "actors of other clients")
 def left_overs(probe: Probe) -> Finding:
     """No other actor has the role names of the scenario."""
     there = probe.client.ask("situation")["actors"]
