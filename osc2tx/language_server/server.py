@@ -66,7 +66,7 @@ class OscServer(LanguageServer):
         """Take the text on disk for a document that the editor closed."""
         self._changed.pop(uri, None)
         self.project.close(path_of(uri))
-        self.text_document_publish_diagnostics(lsp.PublishDiagnosticsParams(uri, []))
+        self._send(uri, [])
         for importer in self.project.renew_importers(path_of(uri)):
             self._publish(importer)
 
@@ -80,15 +80,19 @@ class OscServer(LanguageServer):
                 self._publish_settings(uri, error)
 
     def _publish(self, document: Document) -> None:
-        found = problems.problems(document)
-        self.text_document_publish_diagnostics(lsp.PublishDiagnosticsParams(document.uri, found))
+        self._send(document.uri, problems.problems(document))
         collect_earlier_trees()  # now that the editor has its answer
 
     def _publish_settings(self, uri: str, error: ConfigError) -> None:
         """Send an error of the settings as the diagnostic of a document."""
         start = lsp.Range(lsp.Position(0, 0), lsp.Position(0, 0))
-        found = [lsp.Diagnostic(start, str(error), source="osc2tx")]
-        self.text_document_publish_diagnostics(lsp.PublishDiagnosticsParams(uri, found))
+        self._send(uri, [lsp.Diagnostic(start, str(error), source="osc2tx")])
+
+    def _send(self, uri: str, found: Sequence[lsp.Diagnostic]) -> None:
+        """Send the diagnostics of a document, with the version of its text if it is open."""
+        shown = self.workspace.text_documents.get(uri)
+        version = None if shown is None else shown.version
+        self.text_document_publish_diagnostics(lsp.PublishDiagnosticsParams(uri, found, version))
 
 
 def path_of(uri: str) -> Path:

@@ -85,7 +85,7 @@ FAILURES = [
         "ego.change_lane(num_of_lanes: 1, side: right)",
         1.05,
         1,
-        "there is not a driving lane to the right of lane -4 of road 1 at s = 60.0 m",
+        "there is no driving lane to the right of lane -4 of road 1 at s = 60.0 m",
     ),
     Case(
         "more speed than time for it",

@@ -14,8 +14,15 @@ pytest.importorskip("pygls")
 pytest.importorskip("pytest_lsp")
 import pytest_lsp
 from lsprotocol import types as lsp
+from pytest_lsp.client import (
+    DEFAULT_CLIENT_FEATURES,
+    LanguageClient,
+    default_converter,
+    register_lsp_features,
+)
 
 T = TypeVar("T")
+PUBLISHED = lsp.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS
 SECONDS = 120  # until a server that does not answer is given up
 
 
@@ -31,8 +38,15 @@ class Editor:
     def __init__(self, folder: Path) -> None:
         self.folder = folder
         self._loop = asyncio.new_event_loop()
-        self._client = pytest_lsp.make_test_lsp_client()
+        self._client = LanguageClient(converter_factory=default_converter)
         self._versions: dict[str, int] = {}
+        self._checked: dict[str, int | None] = {}
+
+        def take(params: lsp.PublishDiagnosticsParams) -> None:
+            self._client.diagnostics[params.uri] = params.diagnostics
+            self._checked[params.uri] = params.version
+
+        register_lsp_features(self._client, {**DEFAULT_CLIENT_FEATURES, PUBLISHED: take})
 
     @property
     def problems(self) -> dict[str, list[lsp.Diagnostic]]:
@@ -77,14 +91,20 @@ class Editor:
         self.notify(lsp.TEXT_DOCUMENT_DID_CHANGE, params, of)
 
     def notify(self, method: str, params: Any, of: str | None = None) -> None:
-        """Send a notification; return after the diagnostics of a document, if one is given."""
+        """Send a notification; return after the diagnostics of a document, if one is given.
+
+        Those of an earlier text of the document do not count.
+        """
+
+        def is_checked(uri: str) -> bool:
+            is_present = self._checked.get(uri) == self._versions.get(uri)
+            return is_present and uri in self._client.diagnostics
 
         async def wait() -> None:
             self._client.diagnostics.pop(of, None)
             self._client.protocol.notify(method, params)
-            while of is not None and of not in self._client.diagnostics:
-                asked = lsp.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS
-                await self._client.wait_for_notification(asked)
+            while of is not None and not is_checked(of):
+                await self._client.wait_for_notification(PUBLISHED)
 
         self._run(wait())
 

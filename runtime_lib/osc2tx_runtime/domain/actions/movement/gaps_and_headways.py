@@ -229,7 +229,7 @@ class _KeepGap(_OneAxis):
             raise Refused(error.message) from error
         if math.isinf(size):
             along = self.direction == "longitudinal"
-            why = "the follower is at a standstill" if along else "the distance does not decrease"
+            why = "the follower is at standstill" if along else "the distance does not decrease"
             raise Refused(f"there is no time gap between the actors: {why}")
         if self.direction == "lateral":
             self.command(LATERAL, self.beside(abs(size), left=size >= 0.0))
