@@ -315,14 +315,15 @@ class Compilation:
     @cached_property
     def graded_xml(self) -> tuple[XmlScenario, ...]:
         """The same with measured grades, as builds write them, if this is requested."""
-        if self.ir is None or not self.options.xml.verify:
+        if self.ir is None:
             return self.xml
-        from osc2tx.grading import Source, graded
+        from osc2tx.grading import Source, graded, unplayed
 
         with room_for_trees():
             folder, module = self.path.parent, self.whole_module
             source = Source(self.ir, self.options, folder, module, self._findings)
-            return graded(self.xml, source, self.sink)
+            grade = graded if self.options.xml.verify else unplayed
+            return grade(self.xml, source, self.sink)
 
     def whole_module(self) -> GeneratedModule:
         """Return a module to run, with the declarations of imported files in it.

@@ -63,8 +63,7 @@ def loss_of(scenario: XmlScenario) -> LossEntry:
 def report_losses(scenarios: Iterable[XmlScenario], sink: DiagnosticSink) -> None:
     """Report the obstacles to XML."""
     for scenario in scenarios:
-        for entry in scenario.report.obstacles:
-            sink.report(entry.code, entry.span, entry.message, help=entry.help)
+        scenario.report.tell_obstacles(sink)
 
 
 def entries_of(

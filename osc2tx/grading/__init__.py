@@ -9,6 +9,6 @@
 - `values`: values of open parameters for the runs
 """
 
-from osc2tx.grading.grading import Source, graded
+from osc2tx.grading.grading import Source, graded, unplayed
 
-__all__ = ["Source", "graded"]
+__all__ = ["Source", "graded", "unplayed"]

@@ -10,7 +10,6 @@ from pathlib import Path
 from osc2tx import ir
 from osc2tx.backends.py_trees.emitter import GeneratedModule
 from osc2tx.backends.xosc import XmlScenario
-from osc2tx.backends.xosc.report import Grade
 from osc2tx.backends.xosc.report_json import report_json
 from osc2tx.catalogue import catalogue
 from osc2tx.diagnostics import DiagnosticSink, InternalCompilerError, Span
@@ -64,7 +63,7 @@ def graded(
     if all(each.xml is None for each in documents):
         return tuple(documents)
     if any(map(_is_of_a_package, source.module.scenarios)):  # installed here, not elsewhere
-        return tuple(_unmeasured(each, source, PACKAGES) for each in documents)
+        return tuple(_unmeasured(each, source, sink, PACKAGES) for each in documents)
     try:
         with ExitStack() as stack:
             module = source.generate()
@@ -72,7 +71,7 @@ def graded(
             return tuple(_graded(each, module, scenarios, source, sink) for each in documents)
     except (ScenarioError, ImportError, InternalCompilerError) as error:
         reason = f"there is no module to run: {error}"
-        return tuple(_unmeasured(each, source, reason) for each in documents)
+        return tuple(_unmeasured(each, source, sink, reason) for each in documents)
 
 
 def _is_of_a_package(scenario: ir.Scenario) -> bool:
@@ -111,15 +110,17 @@ def _graded(
         known = source.findings
         finding = find(known, found, module, options, measure) if known else measure()
     except NoEvidence as error:
-        return _unmeasured(found, source, str(error))
-    report = found.report
-    stated = [each.bound for each in report.entries if each.grade is Grade.APPROXIMATED]
-    report.measure(finding.measured)
-    if finding.is_faithful or any(isinstance(bound, str) for bound in stated):
+        return _unmeasured(found, source, sink, str(error))
+    report, deviation = found.report, finding.deviation
+    stated = [each.bound for each in report.approximations]
+    span = None if finding.is_faithful else _blamed(found, finding)
+    is_of_tool = deviation.is_off_road or deviation.is_at_fork
+    is_explained = report.measure(finding.measured, None if is_of_tool else span)
+    if span is None or any(isinstance(bound, str) for bound in stated):
         return _completed(found, source)
-    span = _blamed(found, finding)
+    if is_explained:
+        return _settled(found, source, sink)
     construct = report.construct_at(span, "action")
-    deviation = finding.deviation
     what = OFF_ROAD if deviation.is_off_road else BEYOND if stated else UNLIKE
     what = FORK if deviation.is_at_fork else what
     if what is BEYOND:
@@ -132,12 +133,32 @@ def _graded(
     return _completed(found, source)
 
 
-def _unmeasured(found: XmlScenario, source: Source, reason: str) -> XmlScenario:
+def unplayed(
+    documents: Sequence[XmlScenario], source: Source, sink: DiagnosticSink
+) -> tuple[XmlScenario, ...]:
+    """Return the documents of a file where none is played: what is open stays unmeasured."""
+    is_open = [any(entry.is_open for entry in each.report.entries) for each in documents]
+    return tuple(
+        _unmeasured(each, source, sink, "`--no-verify`") if open_ else each
+        for each, open_ in zip(documents, is_open, strict=True)
+    )
+
+
+def _settled(found: XmlScenario, source: Source, sink: DiagnosticSink) -> XmlScenario:
+    """Return a document after what was open is approximated, which may not be accepted."""
+    if source.options.target == "xosc":
+        found.report.tell_obstacles(sink)
+    return _completed(found, source)
+
+
+def _unmeasured(
+    found: XmlScenario, source: Source, sink: DiagnosticSink, reason: str
+) -> XmlScenario:
     """Return a document as it is, with the reason why it is not measured."""
     if found.xml is None:
         return found
     found.report.leave_unmeasured(reason)
-    return _completed(found, source)
+    return _settled(found, source, sink)
 
 
 def _completed(found: XmlScenario, source: Source) -> XmlScenario:

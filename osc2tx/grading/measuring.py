@@ -12,7 +12,7 @@ from pathlib import Path
 
 from osc2tx.backends.xosc import XmlScenario
 from osc2tx.backends.xosc.facts.start_places import read_signal, read_spawn
-from osc2tx.backends.xosc.report import Grade, Measured, Metres
+from osc2tx.backends.xosc.report import Measured, Metres
 from osc2tx.grading.comparison import EXACT, Deviation, compare
 from osc2tx.grading.runs import (
     NoEvidence,
@@ -34,7 +34,7 @@ from osc2tx_runtime.opendrive import RoadMap
 from osc2tx_shared.classes import dataclass, replace
 from osc2tx_shared.map_files import map_places
 
-COARSE, FINE = 0.05, 0.02  # s: lengths of steps
+COARSE, FINE, FINEST = 0.05, 0.02, 0.01  # s: lengths of steps
 SUSPECT = 0.3  # m: at coarse steps, the delay of events may hide so much
 LONGEST = 300.0  # s: as a run of the module
 MOST_ACTOR_STEPS = 60_000
@@ -90,7 +90,9 @@ class Measuring:
             signal=dict(map(read_signal, options.signals)),
             spawn={actor: (at.road, at.lane, at.s) for actor, at in spawn.items()},
         )
-        bounds = [e.bound for e in found.report.entries if e.grade is Grade.APPROXIMATED]
+        bounds = [each.bound for each in found.report.approximations]
+        self._chooses = False
+        self._is_doubted = any(each.is_open for each in found.report.entries)
         self._is_bounded = all(isinstance(bound, Metres) for bound in bounds)
         self._stated = sum(bound.rounded for bound in bounds if isinstance(bound, Metres))
 
@@ -108,6 +110,8 @@ class Measuring:
                 results.append(self._judged(values))
             except NoEvidence:
                 continue  # constraints or the map leave no room for this corner
+        if not self._chooses:  # the world draws, and what it has drawn is one of the rows
+            results = [min(results, key=lambda each: each.deviation.place)]
         worst = max(results, key=lambda each: (not each.is_faithful, each.deviation.place))
         measured = Measured(
             place=max(each.deviation.place for each in results),
@@ -121,9 +125,16 @@ class Measuring:
     def _judged(self, values: Values) -> Finding:
         """Run scenario and document with values of open parameters, at fine steps if necessary."""
         found = self._at(COARSE, values)
-        if not self._is_bounded or (found.is_faithful and found.deviation.place < SUSPECT):
+        suspect = EXACT if self._is_doubted else SUSPECT
+        if not self._is_bounded or (found.is_faithful and found.deviation.place < suspect):
             return found
-        return self._at(FINE, values)
+        found = self._at(FINE, values)
+        if found.is_faithful and not self._is_doubted:
+            return found
+        finest = self._at(FINEST, values)
+        shrinks = 2.0 * finest.deviation.place - found.deviation.place < EXACT + self._stated
+        is_step = shrinks and not finest.deviation.problems and not finest.deviation.is_at_fork
+        return replace(finest, is_faithful=finest.is_faithful or is_step)
 
     def _at(self, dt: float, values: Values) -> Finding:
         longest = min(LONGEST, MOST_ACTOR_STEPS * dt / self._actors)
@@ -131,12 +142,13 @@ class Measuring:
         declared = declared_values(self._root, values)
         chosen = values_for(self._scenario, settings, declared)
         world = run_in_world(self._scenario, replace(settings, set=chosen))
+        self._chooses = bool(chosen or world.recording.choices)
         found = run_in_player(
             self._root,
             self._map(),
             dt,
             reading=reading_of(self._tool),
-            given={**world.recording.choices, **values},
+            given={**values, **world.recording.choices},
             most=time_for(world, longest),
         )
         patience = self._stated / PACE if self._is_bounded else inf

@@ -22,7 +22,7 @@ from osc2tx.compilation.driver import Compilation
 from osc2tx.config import GivenOptions
 from osc2tx.options import XML_VERSIONS, XmlVersion
 from tests.unit.backends.xosc.checks import checker_issues, schema_errors, story_problems, untraced
-from tests.unit.backends.xosc.documents import documents, module_of
+from tests.unit.backends.xosc.documents import graded_documents, module_of
 
 HERE = Path(__file__).parent / "xosc"
 CASES = sorted(path.parent for path in HERE.glob("*/input.osc"))
@@ -57,7 +57,8 @@ def written(case: Path, version: XmlVersion, *, allow_approx: bool = False) -> X
     compilation = compilation_of(case)
     stated = compilation.options.xml
     allowed = allow_approx or stated.allow_approx
-    return documents(compilation, replace(stated, version=version, allow_approx=allowed))[-1]
+    options = replace(stated, version=version, allow_approx=allowed)
+    return graded_documents(compilation, options)[-1]
 
 
 def verdict(case: Path, version: XmlVersion) -> str:

@@ -10,7 +10,7 @@ from collections import Counter
 from enum import Enum
 from math import ceil, floor, inf, log10
 
-from osc2tx.diagnostics import Span
+from osc2tx.diagnostics import DiagnosticSink, Span
 from osc2tx.options import XmlOptions
 from osc2tx.xosc.element import Unwritable
 from osc2tx.xosc.profiles import PROFILES, ToolProfile
@@ -104,6 +104,9 @@ class Metres:
         return rounded_up(self.most)
 
 
+UNMEASURED = "not measured"
+"""The bound of what no played document has shown."""
+
 ROUNDING = 1e-6
 
 
@@ -164,6 +167,7 @@ class Entry:
         reason: Why it is not exact, or what is worth knowing about an exact one.
         bound: How far an approximation is from the original: metres, or in words what differs.
         remedy: What could express it.
+        is_open: It is not exact if the played document deviates; else it is.
     """
 
     construct: str
@@ -172,6 +176,7 @@ class Entry:
     reason: str = ""
     bound: Metres | str = ""
     remedy: Remedy = NOTHING
+    is_open: bool = False
 
     @property
     def code(self) -> str:
@@ -228,6 +233,12 @@ class LossReport:
         remedy = remedy.with_tool(self._tool)
         self._add(Entry(construct, span, Grade.APPROXIMATED, reason, bound, remedy))
 
+    def doubt(self, construct: str, span: Span, reason: str, remedy: Remedy = NOTHING) -> None:
+        """Note why a construct may differ: whether it does, and how far, is measured."""
+        remedy = remedy.with_tool(self._tool)
+        entry = Entry(construct, span, Grade.APPROXIMATED, reason, UNMEASURED, remedy, is_open=True)
+        self._add(entry)
+
     def cannot(self, construct: str, span: Span, reason: str, remedy: Remedy = NOTHING) -> None:
         """Note that a construct cannot be written down."""
         remedy = remedy.with_tool(self._tool)
@@ -240,15 +251,37 @@ class LossReport:
         else:
             self.cannot(construct, span, error.reason)
 
-    def measure(self, measured: Measured) -> None:
-        """Note how far the document is off; approximations without a number take that one."""
+    def measure(self, measured: Measured, deviates_at: Span | None) -> bool:
+        """Note how far the document is off; approximations without a number take that one.
+
+        Return whether what was open explains why it deviates, if it does.
+        """
         self.measured = measured
+        is_explained = self.settle(deviates_at)
         self._bound_by(str(measured))
+        return is_explained
 
     def leave_unmeasured(self, reason: str) -> None:
         """Note why nothing is known about how far the document is off."""
         self.unmeasured = reason
-        self._bound_by(f"not measured: {reason}")
+        self._bound_by(f"{UNMEASURED}: {reason}")
+
+    def settle(self, deviates_at: Span | None) -> bool:
+        """Decide what is open: it is exact, but for what stands where the document deviates.
+
+        If nothing does, whatever is open may be the cause. Return whether there is a cause.
+        """
+        open_ = [each for each in self.entries if each.is_open]
+        causes = [] if deviates_at is None else open_
+        causes = [each for each in causes if deviates_at and deviates_at.holds(each.span)] or causes
+        for each in open_:
+            same = self._entries[each.span][each.construct]
+            same.remove(each)
+            if each in causes:
+                same.append(replace(each, bound="", is_open=False))
+            elif not same:
+                same.append(Entry(each.construct, each.span, Grade.EXACT))
+        return bool(causes)
 
     def _bound_by(self, text: str) -> None:
         """Add to approximations that say in words alone how far off they are."""
@@ -256,7 +289,9 @@ class LossReport:
             for same in of_span.values():
                 for i, each in enumerate(same):
                     if each.grade is Grade.APPROXIMATED and isinstance(each.bound, str):
-                        same[i] = replace(each, bound=f"{each.bound}; {text}")
+                        said = "" if each.is_open else each.bound
+                        bound = "; ".join(filter(None, (said, text)))
+                        same[i] = replace(each, bound=bound, is_open=False)
 
     def _add(self, entry: Entry) -> None:
         """Add an entry; what is not exact stands instead of what is."""
@@ -290,7 +325,17 @@ class LossReport:
         accepted = {Grade.EXACT}
         if self.options.allow_approx:
             accepted.add(Grade.APPROXIMATED)
-        return tuple(entry for entry in self.entries if entry.grade not in accepted)
+        return tuple(e for e in self.entries if e.grade not in accepted and not e.is_open)
+
+    @property
+    def approximations(self) -> tuple[Entry, ...]:
+        """Those that are approximated, whatever the played document shows."""
+        return tuple(e for e in self.entries if e.grade is Grade.APPROXIMATED and not e.is_open)
+
+    def tell_obstacles(self, sink: DiagnosticSink) -> None:
+        """Report why there is no XML."""
+        for entry in self.obstacles:
+            sink.report(entry.code, entry.span, entry.message, help=entry.help)
 
     @property
     def is_expressible(self) -> bool:
@@ -299,8 +344,9 @@ class LossReport:
 
     def summary(self) -> str:
         """Return one line for people."""
-        counts = Counter(entry.grade for entry in self.entries)
-        told = ", ".join(f"{counts[grade]} {grade.value}" for grade in Grade if counts[grade])
+        grades = ["unmeasured" if e.is_open else e.grade.value for e in self.entries]
+        counts, order = Counter(grades), (*(grade.value for grade in Grade), "unmeasured")
+        told = ", ".join(f"{counts[grade]} {grade}" for grade in order if counts[grade])
         asked = f"OpenSCENARIO XML {self.options.version}"
         if self.options.profile != "generic":
             asked += f" for {self.options.profile}"

@@ -96,9 +96,5 @@ def _path(span: Span, module: ir.Module) -> str:
     if not above:
         return ""
     scenario = max(above, key=lambda s: s.span.start)
-    around = (n for n in ir.walk_behaviors(scenario.body) if _holds(n.span, span))
+    around = (n for n in ir.walk_behaviors(scenario.body) if n.span.holds(span))
     return ".".join((scenario.name, *(node.label for node in around if node.label is not None)))
-
-
-def _holds(outer: Span, inner: Span) -> bool:
-    return outer.source is inner.source and outer.start <= inner.start and inner.end <= outer.end

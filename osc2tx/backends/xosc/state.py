@@ -33,9 +33,6 @@ def known(value: float) -> Interval:
     return Interval(value, value)
 
 
-STEADY = Interval(0.0, 0.0)
-"""Acceleration of who keeps its speed."""
-
 CENTRE = Interval(0.0, 0.0)
 """Of a lane."""
 
@@ -77,11 +74,9 @@ class ActorState:
         aim: Speed (m/s) that its last change had as its goal; `None` without one, or if
             there are several.
         rate: Acceleration (m/s^2) that an action may keep; `None` if it may be anything.
-        pending: Between which accelerations (m/s^2) a change that is cut short may leave it.
-        drift: Fastest speed across the road (m/s) that a change which is cut short may leave.
         jumped: The speed may have changed in no time before, or evenly up to the end, and not again
             since then.
-        aside: Metres that a change of its place in the lane may be short of it where it is stopped.
+        returns: A change of its place in the lane goes on to its end though it is cut short.
         unfinished: What may still be changing when the last action has ended, by domain, with the
             event that changes it.
     """
@@ -92,10 +87,8 @@ class ActorState:
     pose: Pose | None = None
     aim: float | None = None
     rate: float | None = 0.0
-    pending: Interval = STEADY
-    drift: float = 0.0
     jumped: bool = False
-    aside: float = 0.0
+    returns: bool = False
     unfinished: tuple[tuple[str, str], ...] = ()
 
     @property
@@ -116,13 +109,12 @@ class ActorState:
         """Return the state in which nothing changes in a domain."""
         found = replace(self, unfinished=self._others(domain))
         if domain == LONGITUDINAL:
-            return replace(found, rate=0.0, pending=STEADY, jumped=False)
-        return replace(found, drift=0.0, aside=0.0) if domain == LATERAL else found
+            return replace(found, rate=0.0, jumped=False)
+        return replace(found, returns=False) if domain == LATERAL else found
 
     def going_on(self, other: ActorState) -> ActorState:
         """Return the state in which what changes goes on as in another one."""
-        going = replace(self, rate=other.rate, pending=other.pending, jumped=other.jumped)
-        return replace(going, drift=other.drift, aside=other.aside)
+        return replace(self, rate=other.rate, jumped=other.jumped, returns=other.returns)
 
     def _others(self, domain: str) -> tuple[tuple[str, str], ...]:
         return tuple(pair for pair in self.unfinished if pair[0] != domain)
@@ -148,9 +140,7 @@ def merged(a: ActorState, b: ActorState) -> ActorState:
         pose=a.pose if a.pose == b.pose else None,
         aim=b.aim if a.aim is None else a.aim if b.aim in (None, a.aim) else None,
         rate=a.rate if a.rate == b.rate else None,
-        pending=a.pending.over(b.pending),
-        drift=max(a.drift, b.drift),
         jumped=a.jumped or b.jumped,
-        aside=max(a.aside, b.aside),
+        returns=a.returns or b.returns,
         unfinished=unfinished,
     )

@@ -170,6 +170,123 @@ def test_a_run_that_never_ends_counts_up_to_its_last_action(tmp_path: Path) -> N
     assert found.report.obstacles == ()
 
 
+TAKES_OVER = """\
+import osc.standard.all
+
+namespace null use std, stdtypes
+
+scenario top:
+    road: map with:
+        keep(it.map_file == "highway.xodr")
+    ego: vehicle
+
+    do serial:
+        ego.change_speed(target: 20mps, rate_profile: constant, rate_peak: 2mpss) with:
+            lane(2, at: start)
+            position(100m, at: start)
+            speed(AT_FIRST, at: start)
+        ego.drive(duration: 2s) with:
+            acceleration(RATE)
+        ego.change_speed(target: 30mps)
+        ego.drive(duration: 2s)
+"""
+"""The last change begins with the acceleration before, which the XML cannot say."""
+
+
+def taking_over(
+    folder: Path, rate: str, *, verify: bool = True, allow: bool = False
+) -> Compilation:
+    path = folder / "top.osc"
+    text = TAKES_OVER.replace("RATE", rate).replace("AT_FIRST", "18mps")
+    path.write_text(text, encoding="utf-8")
+    xml = XmlOptions(version="1.2", allow_approx=allow, verify=verify)
+    compilation = Compilation(path, path.name, CompileOptions(target="xosc", xml=xml))
+    assert compilation.check(), compilation.diagnostics
+    return compilation
+
+
+def test_a_doubt_is_exact_where_the_run_shows_no_deviation(tmp_path: Path) -> None:
+    compilation = taking_over(tmp_path, "0.05mpss")
+    (written,) = compilation.xml
+    assert any(entry.is_open for entry in written.report.entries)
+    (found,) = compilation.graded_xml
+    assert found.xml is not None and found.report.losses == ()
+    assert codes(compilation) == []
+
+
+def test_a_doubt_that_the_run_confirms_is_approximated_as_measured(tmp_path: Path) -> None:
+    compilation = taking_over(tmp_path, "2mpss")
+    (found,) = compilation.graded_xml
+    assert found.xml is None and codes(compilation) == ["OSC515"]
+    (entry,) = found.report.losses
+    assert entry.reason.startswith("it takes over the acceleration of the change before")
+    assert str(entry.bound).startswith("measured: at most")
+    (allowed,) = taking_over(tmp_path, "2mpss", allow=True).graded_xml
+    assert allowed.xml is not None
+    assert [each.bound for each in allowed.report.losses] == [entry.bound]
+
+
+@pytest.mark.parametrize("allow", [True, False])
+def test_a_doubt_about_a_document_that_is_not_played_stays(tmp_path: Path, allow: bool) -> None:
+    compilation = taking_over(tmp_path, "0.05mpss", verify=False, allow=allow)
+    (found,) = compilation.graded_xml
+    assert (found.xml is not None) is allow
+    (entry,) = found.report.losses
+    assert entry.bound == "not measured: `--no-verify`"
+    assert codes(compilation) == ([] if allow else ["OSC515"])
+
+
+DRAWN = """import osc.standard.all
+
+namespace null use std, stdtypes
+
+scenario top:
+    road: map with:
+        keep(it.map_file == "highway.xodr")
+    ego: vehicle
+
+    do serial:
+        ego.drive(duration: 1s) with:
+            lane(2, at: start)
+            position(50m, at: start)
+            speed(15mps)
+        ego.change_lane(num_of_lanes: 1, duration: 4s)
+"""
+
+
+def test_what_the_world_draws_is_one_of_the_values_of_the_document(tmp_path: Path) -> None:
+    found, compilation = grade(tmp_path, text=DRAWN)
+    assert found.xml is not None and found.parameters is not None
+    assert codes(compilation) == []
+
+
+CUT_WHILE_FASTER = """\
+import osc.standard.all
+
+namespace null use std, stdtypes
+
+scenario top:
+    road: map with:
+        keep(it.map_file == "highway.xodr")
+    ego: vehicle
+
+    do serial:
+        one_of:
+            ego.change_speed(target: 30mps, rate_profile: constant, rate_peak: 2mpss) with:
+                lane(2, at: start)
+                position(50m, at: start)
+                speed(20mps, at: start)
+            wait elapsed(3s)
+        ego.change_lane(num_of_lanes: 1, side: left, duration: 4s)
+"""
+
+
+def test_a_deviation_that_shrinks_with_the_steps_is_the_delay_of_an_event(tmp_path: Path) -> None:
+    """A change that is cut short a step late leaves another speed, which lasts."""
+    found, compilation = grade(tmp_path, text=CUT_WHILE_FASTER)
+    assert found.xml is not None and codes(compilation) == []
+
+
 OFF_THE_ROAD = TEXT.replace("highway.xodr", "crossing.xodr").replace(
     TEXT[TEXT.index("    v: speed") :],
     """\

@@ -153,6 +153,10 @@ class Arguments:
         """Report that the action or modifier means nearly the same in the XML."""
         self._ctx.report.approximate(self.construct, self.span, reason, bound, remedy)
 
+    def doubt(self, reason: str, remedy: Remedy = NOTHING) -> None:
+        """Report why it may differ in the XML: a played document shows whether it does."""
+        self._ctx.report.doubt(self.construct, self.span, reason, remedy)
+
     def finish(self) -> None:
         """Refuse arguments that nobody has asked for: they would be dropped.
 

@@ -239,22 +239,20 @@ def _road(ctx: Context, source: ir.Invoke | ir.Actor) -> xml.RoadCondition | Non
         is_new = ctx.weather.get("adhesion") != adhesion
         ctx.weather["adhesion"] = adhesion
         if is_new and isinstance(source, ir.Invoke) and not ir.is_first(ctx.scenario.body, source):
-            _report_lost_grip(ctx, source, adhesion)
+            _report_lost_grip(ctx, source)
     return xml.RoadCondition(frictionScaleFactor=1.0 if adhesion is None else adhesion)
 
 
-def _report_lost_grip(ctx: Context, source: ir.Invoke, adhesion: float) -> None:
+def _report_lost_grip(ctx: Context, source: ir.Invoke) -> None:
     """Report that vehicles lose grip amid an action: the XML does not define the rest of it."""
     beside = ir.runs_beside(ctx.scenario.body, source)
     names = {name for member in beside for name in ir.actors_of(member)}
     if any(name in ctx.cast and not ctx.cast[name].walks for name in names):
-        ctx.report.approximate(
+        ctx.report.doubt(
             f"action {source.action}",
             source.span,
             "the road becomes slippery while vehicles move; what that does to an action that has"
             " begun the XML leaves to the tool",
-            f"vehicles keep the commanded acceleration beyond {adhesion:g} of the grip"
-            " of a dry road",
         )
 
 

@@ -93,19 +93,6 @@ class Performance:
         return tuple(action for change in self.changes for action in change.actions)
 
 
-@dataclass(frozen=True, slots=True)
-class Uneven:
-    """How an even change of the speed differs from that of the world.
-
-    Attributes:
-        speed: By how much (m/s) at most.
-        length: Seconds after which the speeds are the same; `None`: where the change is complete.
-    """
-
-    speed: float
-    length: float | None
-
-
 class Leaf:
     """An invocation.
 
@@ -123,7 +110,6 @@ class Leaf:
         course: Of the speed, where the changes say it.
         distance: Metres after which it is over; `None` if no distance ends it.
         reached: Conditions that hold when it is over.
-        uneven: How its change of the speed differs, where it only is an even one.
         others: Who does what from its end on, and a word for it.
     """
 
@@ -157,7 +143,6 @@ class Leaf:
         self.course: Course | None = None
         self.distance: float | None = None
         self.reached: tuple[xml.ByEntityCondition, ...] = ()
-        self.uneven: Uneven | None = None
         self.others: list[tuple[CastMember, xml.ActionPart, str]] = []
 
     @property
@@ -195,6 +180,10 @@ class Leaf:
     def approximate(self, reason: str, bound: Metres | str, remedy: Remedy = NOTHING) -> None:
         """Report that the action means nearly the same in the XML."""
         self.arguments.approximate(reason, bound, remedy)
+
+    def doubt(self, reason: str, remedy: Remedy = NOTHING) -> None:
+        """Report why the action may differ in the XML: a played document shows whether it does."""
+        self.arguments.doubt(reason, remedy)
 
     def modifier(self, name: str) -> Arguments | None:
         """Return the modifier of a name, if the invocation has one."""

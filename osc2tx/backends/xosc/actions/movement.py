@@ -105,17 +105,12 @@ _BESIDE_SPEED = ("keep_lane", "lane", "lateral", "change_lane")
 def _note_open_speed(leaf: Leaf) -> None:
     """Report that a driver who is told no speed slows down for bends, which no XML says."""
     roads, speed = leaf.ctx.roads, leaf.state.speed
-    if roads is None or leaf.member.walks:
-        return
-    if any(call.name not in _BESIDE_SPEED for call in leaf.node.modifiers):
+    is_told = any(call.name not in _BESIDE_SPEED for call in leaf.node.modifiers)
+    if roads is None or leaf.member.walks or is_told:
         return
     fastest = TOP_SPEED if speed is None else max(map(abs, speed))
     if fastest**2 * roads.sharpest_bend > leaf.limits.lateral:
-        bound = f"{fastest:.4g} m/s are too fast for the sharpest bend of the map"
-        if speed is None:
-            bound = "none where its speed, which only the run shows, suits the bends of the map"
-        leaf.approximate(
+        leaf.doubt(
             "no speed is stated: it slows down for bends in the world, but not in the XML",
-            bound,
             Remedy(instead="`keep_speed()` holds the speed in both"),
         )

@@ -16,7 +16,7 @@ from osc2tx.backends.xosc.conditions.comparisons import (
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.start_lanes import faces_along, standing_heading
 from osc2tx.backends.xosc.facts.maps import LanePosition, are_opposed
-from osc2tx.backends.xosc.report import NOTHING, Inexpressible, Metres, Remedy
+from osc2tx.backends.xosc.report import NOTHING, Inexpressible, Remedy
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.literals import CoordinateSystem, Rule
 
@@ -112,13 +112,8 @@ def in_order(
         if rule.startswith("less") and not c.is_edge:
             return ((measure,), (is_clear(ctx, me, other, ahead=is_ahead),))
         return ((measure, is_clear(ctx, me, other, ahead=not is_ahead)),)
-    ctx.report.approximate(
-        f"sign of {c.name}",
-        c.source.span,
-        NO_SIGN,
-        f"differs only while {other} is on the other side of {me} by more than {amount}",
-        WITH_ORDER.get(direction, NOTHING),
-    )
+    remedy = WITH_ORDER.get(direction, NOTHING)
+    ctx.report.doubt(f"sign of {c.name}", c.source.span, NO_SIGN, remedy)
     return ((measure,),)
 
 
@@ -166,25 +161,23 @@ def note_facing(ctx: Context, c: Comparison, freespace: bool) -> None:
     """Report what a distance along the road depends on: how the other one looks, and its lane."""
     mine, theirs = (_lane_at_start(ctx, name) for name in (c.actor, c.reference()))
     if ctx.roads is not None and mine and theirs and are_opposed(ctx.roads.map, mine, theirs):
-        ctx.report.approximate(
+        ctx.report.doubt(
             c.name,
             c.source.span,
             f"no lane leads from {c.actor} to {c.reference()} or back as they start: distances are"
             " along lanes in the world, and along the road in the XML",
-            "where the scenario fails because there is no distance, the XML goes on",
         )
     if not freespace:
         return
     shape = next(m.shape for m in ctx.entities if m.name == c.reference())
-    off = abs(shape.front - shape.rear)
-    if off < 1e-6 or faces_along(ctx, c.actor, c.reference()):
-        return
-    ctx.report.approximate(
-        c.name,
-        c.source.span,
-        f"{c.reference()} may look another way than {c.actor}, so that another end of it faces it",
-        Metres(off),
-    )
+    is_even = abs(shape.front - shape.rear) < 1e-6
+    if not is_even and not faces_along(ctx, c.actor, c.reference()):
+        ctx.report.doubt(
+            c.name,
+            c.source.span,
+            f"{c.reference()} may look another way than {c.actor}, so that another end of it faces"
+            " it",
+        )
 
 
 def _lane_at_start(ctx: Context, name: str) -> LanePosition | None:

@@ -174,13 +174,8 @@ def _rule(ctx: Context, operator: str, expression: ir.Binary) -> Rule:
     if operator == "!=":
         ctx.require("the rule `notEqualTo`", "1.1", expression.span)
     strict = operator[0]
-    ctx.report.approximate(
-        f"`{operator}`",
-        expression.span,
-        f"OpenSCENARIO XML 1.0 has no rule for `{operator}`; `{strict}` is written",
-        "differs only while both sides are equal",
-        Remedy(version="1.1"),
-    )
+    reason = f"OpenSCENARIO XML 1.0 has no rule for `{operator}`; `{strict}` is written"
+    ctx.report.doubt(f"`{operator}`", expression.span, reason, Remedy(version="1.1"))
     return RULES[strict]
 
 

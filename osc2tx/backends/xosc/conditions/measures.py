@@ -58,14 +58,9 @@ def time_headway(ctx: Context, c: Comparison) -> Groups:
 
     It is positive if the reference leads.
     """
-    difference = overhang(ctx, c.actor, c.reference())
-    if difference:
-        ctx.report.approximate(
-            "time_headway",
-            c.source.span,
-            "a time in the XML counts between reference points, not between fronts",
-            f"off by the time for {abs(difference):.2g} m",
-        )
+    if overhang(ctx, c.actor, c.reference()):
+        reason = "a time in the XML counts between reference points, not between fronts"
+        ctx.report.doubt("time_headway", c.source.span, reason)
     return _between(ctx, c, is_ahead=True, freespace=False)
 
 
@@ -133,12 +128,8 @@ def time_to_collision(ctx: Context, c: Comparison) -> Groups:
             relativeDistanceType="longitudinal" if newer else None,
         ),
     )
-    ctx.report.approximate(
-        c.name,
-        c.source.span,
-        "a time in the XML counts along one axis; motion across it does not count",
-        "none where both keep to the axis of the actor; else by the time to come to its width",
-    )
+    reason = "a time in the XML counts along one axis; motion across it does not count"
+    ctx.report.doubt(c.name, c.source.span, reason)
     if c.rule.startswith("less"):
         if ctx.profile.latches_conditions:  # it wants each of two conditions once: one has to do
             return ((time,),)
@@ -182,12 +173,7 @@ def _distance_to(ctx: Context, c: Comparison, direction: str, system: Coordinate
         if value < 0.0:
             raise Inexpressible("a point behind by a distance", c.source.span)
         if not (c.is_edge and rule.startswith(("less", "greater")) and value > 0.0):
-            ctx.report.approximate(
-                f"sign of {c.name}",
-                c.source.span,
-                NO_SIGN,
-                f"differs only once the point is passed by more than {value:g} m",
-            )
+            ctx.report.doubt(f"sign of {c.name}", c.source.span, NO_SIGN)
     axes, boxes = None if is_free else system, c.is_free
     condition = distance_to(ctx, point.element, value, rule, axes, direction, freespace=boxes)
     return ((of_entity(c.actor, condition),),)

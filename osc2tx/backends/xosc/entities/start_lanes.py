@@ -15,14 +15,6 @@ from osc2tx.backends.xosc.actions.registry import at_start
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.entities.start_statements import Start, StartPlace
-from osc2tx.backends.xosc.facts.actors import (
-    ALIGNED,
-    Linear,
-    Pace,
-    apart,
-    course_of_shift,
-    lost_across,
-)
 from osc2tx.backends.xosc.facts.maps import (
     Lane,
     LanePosition,
@@ -30,7 +22,7 @@ from osc2tx.backends.xosc.facts.maps import (
     lane_from_edge,
     offset_from,
 )
-from osc2tx.backends.xosc.report import Inexpressible, Metres, Remedy
+from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.state import ActorState, known
 from osc2tx.xosc import elements as xml
 
@@ -173,16 +165,8 @@ def note_turn(ctx: Context, start: Start) -> None:
     if math.cos(angle) <= 0.0:
         along = Remedy(instead="a heading along its lane is exact")
         raise Inexpressible("it looks away from its lane, in which a tool may keep it", span, along)
-    bound: Metres | str = "until it is in its lane, as far as the curve is longer"
-    if v > 0.0 and abs(angle) <= ALIGNED:
-        rate = v * math.sin(angle)
-        course = course_of_shift(-lane.offset, Pace(), member.limits, rate)
-        off = math.hypot(apart(course, Linear(0.0, 0.0, 0.0)), lost_across(course, v))
-        if off <= NEAR:
-            return
-        bound = Metres(off, "beside its lane")
     reason = "it comes into the direction of its lane in a curve; a tool may turn it at once"
-    ctx.report.approximate("orientation at the start", span, reason, bound)
+    ctx.report.doubt("orientation at the start", span, reason)
 
 
 STILL = frozenset({"remain_stationary"})

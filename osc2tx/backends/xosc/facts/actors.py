@@ -104,32 +104,6 @@ def course_of_speed(start: float, target: float, pace: Pace, limits: Limits) -> 
     return speed_profile(change, start, limits)
 
 
-def way_by_acceleration(
-    speed: float, target: float, pace: Pace, rates: tuple[float, float], limits: Limits
-) -> float:
-    """Return how far (m) an actor may get ahead or stay behind where its acceleration goes on.
-
-    That is between two rates (m/s^2) at the start of the change, which takes the time it needs.
-    """
-    change = SpeedChange(target, *pace._replace(duration=None).told)
-    at_rest = speed_profile(change, speed, limits)
-    return max(way_between(speed_profile(change, speed, limits, rate), at_rest) for rate in rates)
-
-
-def way_between(one: Course, other: Course, within: float | None = None) -> float:
-    """Return how far (m) two courses of the speed are from each other at most, on the way.
-
-    Looked at are so many seconds, by default until both are over.
-    """
-    step = (max(one.duration, other.duration) if within is None else within) / STEPS
-    apart = farthest = 0.0
-    for index in range(STEPS):
-        middle = (index + 0.5) * step
-        apart += step * (one.value(middle) - other.value(middle))
-        farthest = max(farthest, abs(apart))
-    return farthest
-
-
 def course_of_acceleration(
     start: float, target: float, pace: Pace, limits: Limits
 ) -> Linear | Quintic:
@@ -140,20 +114,6 @@ def course_of_acceleration(
 def course_of_shift(distance: float, pace: Pace, limits: Limits, rate: float = 0.0) -> Profile:
     """Return the course of a change of the place across the road (m), from a lateral speed."""
     return shift_profile(0.0, distance, rate, pace.told, limits)
-
-
-def apart(one: Course, other: Course) -> float:
-    """Return by how much two courses differ at most."""
-    step = max(one.duration, other.duration) / STEPS
-    times = (index * step for index in range(STEPS + 1))
-    return max(abs(one.value(time) - other.value(time)) for time in times)
-
-
-def lost_across(course: Profile, speed: float) -> float:
-    """Return how far (m) who drives at a speed (m/s) stays behind because it shifts aside."""
-    step = course.duration / STEPS
-    rates = (course.rate((index + 0.5) * step) for index in range(STEPS))
-    return sum(step * (speed - sqrt(max(speed**2 - rate**2, 0.0))) for rate in rates)
 
 
 def steepest(course: Course) -> tuple[float, float]:

@@ -11,7 +11,7 @@ from osc2tx.backends.xosc.flattening.events import EventTable
 from osc2tx.backends.xosc.flattening.storyboard import ACTION, Act, Event
 from osc2tx.backends.xosc.flattening.tree_queries import claims
 from osc2tx.backends.xosc.names import member_name
-from osc2tx.backends.xosc.report import Inexpressible, Metres
+from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.state import LATERAL, ActorState, merged
 from osc2tx.xosc import elements as xml
 from osc2tx_shared.classes import replace
@@ -118,14 +118,13 @@ class StoryboardBuilder:
         for name, state in self._stop_states.pop().items():
             is_aside = state.offset is None and self.ctx.states[name].offset is not None
             left = ((LATERAL, self.act.name),) if is_aside else ()
-            if state.aside > 0.0:
-                self.ctx.report.approximate(
+            if state.returns:
+                self.ctx.report.doubt(
                     "an interrupted change of the offset in the lane",
                     self.place,
                     "it ends where it is; in the world it goes on to its place",
-                    Metres(state.aside, "beside"),
                 )
-            self.ctx.states[name] = replace(state, aside=0.0, unfinished=left)
+            self.ctx.states[name] = replace(state, returns=False, unfinished=left)
         self.act = self._around.pop()
 
     def note(self, entity: str, state: ActorState) -> None:

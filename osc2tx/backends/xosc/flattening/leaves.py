@@ -5,15 +5,13 @@ from __future__ import annotations
 from math import inf
 
 from osc2tx import ir
-from osc2tx.backends.xosc.actions.lateral.lanes import LANE_WIDTH
 from osc2tx.backends.xosc.actions.lateral.shifts import lateral
 from osc2tx.backends.xosc.actions.leaf import Change, Leaf, Performance
 from osc2tx.backends.xosc.actions.registry import ACTIONS, GLOBAL_ACTIONS, WITHOUT_FORM
-from osc2tx.backends.xosc.actions.speed.courses import ends_evenly, hold_speed, in_steps, note_cut
+from osc2tx.backends.xosc.actions.speed.courses import ends_evenly, hold_speed, in_steps
 from osc2tx.backends.xosc.actions.user_actions import user_action
 from osc2tx.backends.xosc.conditions.flow import Flow, Test
 from osc2tx.backends.xosc.context import Context
-from osc2tx.backends.xosc.facts.actors import Pace, apart, course_of_shift
 from osc2tx.backends.xosc.flattening.builder import (
     RUN_START,
     StoryboardBuilder,
@@ -22,7 +20,7 @@ from osc2tx.backends.xosc.flattening.directives import invoke_global
 from osc2tx.backends.xosc.flattening.durations import time_frame
 from osc2tx.backends.xosc.flattening.tree_queries import entry_of
 from osc2tx.backends.xosc.names import event_name
-from osc2tx.backends.xosc.report import Inexpressible, Metres, Remedy
+from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.state import LATERAL, LONGITUDINAL, WAY, ActorState
 from osc2tx.xosc import elements as xml
 from osc2tx_shared.classes import replace
@@ -88,8 +86,6 @@ def invoke(builder: StoryboardBuilder, node: ir.Invoke, start: Flow) -> Flow:
     for change in performance.changes:
         is_over = not overriding and _is_over(change, lasting)
         record_end_state(builder, leaf, change, is_over=is_over)
-        if change.domain == LONGITUDINAL and not (is_over and builder.is_outermost):
-            note_cut(leaf, is_by_duration=builder.is_outermost and not is_cut)
         if (member.name, change.domain) in successors:
             cut = ctx.states[member.name]
             ctx.states[member.name] = cut.finished(change.domain).going_on(cut)
@@ -200,8 +196,8 @@ def record_end_state(
 
 
 CHANGED = {
-    LONGITUDINAL: ("speed", "pose", "aim", "rate", "pending", "jumped"),
-    LATERAL: ("offset", "lane", "pose", "drift", "aside"),
+    LONGITUDINAL: ("speed", "pose", "aim", "rate", "jumped"),
+    LATERAL: ("offset", "lane", "pose", "returns"),
 }
 """What a change may change, by domain; in others it is all."""
 
@@ -241,20 +237,6 @@ def end_open_actions(
     return ended
 
 
-def _beside(builder: StoryboardBuilder, actor: str) -> float:
-    """Return by how much (m) the way back to a centre differs at most from the world's."""
-    (member,) = (each for each in builder.ctx.entities if each.name == actor)
-    drift, ways = builder.ctx.states[actor].drift, (0.0, 0.25 * LANE_WIDTH, 0.5 * LANE_WIDTH)
-    return max(
-        apart(
-            course_of_shift(way, Pace(), member.limits, rate),
-            course_of_shift(way, Pace("smooth", None, BACK_TO_CENTRE), member.limits),
-        )
-        for way in ways
-        for rate in (-drift, drift)
-    )
-
-
 def _ending(
     builder: StoryboardBuilder, actor: str, domain: str, member: ir.Behavior
 ) -> xml.PrivateAction:
@@ -264,12 +246,11 @@ def _ending(
         f"it returns to the centre of the lane that it is in within {BACK_TO_CENTRE:g} s, and"
         " without the lateral speed that it has"
     )
-    bound = Metres(_beside(builder, actor), "beside, while it returns")
     construct = "an interrupted lane change"
     finishing = Remedy(
         instead="an uninterrupted lane change is exact", asks=("LaneChangeActionDynamics",)
     )
-    builder.ctx.report.approximate(construct, member.span, reason, bound, finishing)
+    builder.ctx.report.doubt(construct, member.span, reason, finishing)
     dynamics = xml.LaneChangeActionDynamics(
         dynamicsShape="sinusoidal", dynamicsDimension="time", value=BACK_TO_CENTRE
     )

@@ -5,8 +5,11 @@ from functools import cache
 from pathlib import Path
 
 from osc2tx import ir
+from osc2tx.backends.py_trees import emitter as module_emitter
 from osc2tx.backends.xosc import XmlScenario, emit
 from osc2tx.compilation.driver import Compilation
+from osc2tx.diagnostics import DiagnosticSink
+from osc2tx.grading import Source, graded, unplayed
 from osc2tx.options import CompileOptions, XmlOptions
 
 PLAIN = CompileOptions()
@@ -26,9 +29,39 @@ def module_of(compilation: Compilation) -> ir.Module:
 
 @cache
 def documents(compilation: Compilation, options: XmlOptions) -> tuple[XmlScenario, ...]:
-    """Return the documents of a file, exact ones also where approximations are allowed."""
+    """Return the documents of a file, exact ones also where approximations are allowed.
+
+    None is played: what playing it would show is approximated.
+    """
     if options.allow_approx:
         exact = documents(compilation, replace(options, allow_approx=False))
         if all(each.xml is not None for each in exact):
             return exact
-    return emit(module_of(compilation), options, compilation.path.parent)
+    return unplayed_documents(module_of(compilation), options, compilation.path.parent)
+
+
+def unplayed_documents(
+    module: ir.Module, options: XmlOptions, folder: Path
+) -> tuple[XmlScenario, ...]:
+    """Return the documents of a program, none of which is played."""
+    source = _source(module, CompileOptions(), options, folder)
+    found = unplayed(emit(module, options, folder), source, DiagnosticSink())
+    for each in found:
+        if each.xml is None and any(entry.is_open for entry in each.report.entries):
+            each.report.leave_unmeasured("there is no document")
+    return found
+
+
+@cache
+def graded_documents(compilation: Compilation, options: XmlOptions) -> tuple[XmlScenario, ...]:
+    """Return the documents of a file as builds grade them; each keeps to its report."""
+    module, folder, sink = module_of(compilation), compilation.path.parent, DiagnosticSink()
+    source = _source(module, compilation.options, options, folder)
+    found = graded(emit(module, options, folder), source, sink)
+    assert not sink.has_errors, sink.sorted()
+    return found
+
+
+def _source(module: ir.Module, options: CompileOptions, xml: XmlOptions, folder: Path) -> Source:
+    options = replace(options, xml=xml, target="all")
+    return Source(module, options, folder, lambda: module_emitter.emit(module))

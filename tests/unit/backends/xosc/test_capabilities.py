@@ -23,7 +23,9 @@ LIMITS: dict[str, tuple[XmlVersion, ...]] = {
     "C08_stationary": ("1.2", "1.3", "1.4"),  # limited jerk
     "C11_change_position": NOTHING,  # how a walker turns
     "C11_follow_path": NOTHING,  # corners of a path
+    "C11_road_path": NOTHING,  # whether it is on the line
     "C12_along_trajectory": NOTHING,  # a speed that jumps
+    "C12_follow_trajectory": NOTHING,  # whether it is there in time
     "C13_careful_following": NOTHING,  # care for others
     "C13_time_gap": NOTHING,  # how a gap is closed
     "C14_gap_in_time": NOTHING,  # how long it takes
@@ -44,16 +46,19 @@ LIMITS: dict[str, tuple[XmlVersion, ...]] = {
     "C19_own_shape": NOTHING,  # a shape of its own
     "C19_speed_modifier": ("1.2", "1.3", "1.4"),  # limited jerk
     "C20_acceleration_shape": ("1.2", "1.3", "1.4"),
+    "C21_along": NOTHING,  # whether it is on the line
     "C21_position_modifier": ("1.2", "1.3", "1.4"),  # a course of the speed
     "C21_position_shape": NOTHING,  # a course of the place
     "C22_lateral_speeds": NOTHING,  # a speed across
     "C22_overtaking": ("1.2", "1.3", "1.4"),  # the sign of a distance along
     "C23_physical_movement": ("1.2", "1.3", "1.4"),  # limited jerk
+    "C24_temporal_modifiers": ("1.2", "1.3", "1.4"),  # limited jerk
     "C26_pitch_and_roll": NOTHING,  # a pitch in a condition
     "C27_point_distance": ("1.2", "1.3", "1.4"),  # limited jerk
     "C27_world_coordinates": NOTHING,  # where a walker comes to a stand
     "C28_relative_coordinates": ("1.1", "1.2", "1.3", "1.4"),  # a distance across
     "C29_crossing": NOTHING,  # corners of a way
+    "C29_geodetic_points": NOTHING,  # whether it is on the line
     "C29_route_coordinates": ("1.1", "1.2", "1.3", "1.4"),  # `>=`
     "C29_route_points": ("1.1", "1.2", "1.3", "1.4"),  # `<=`
     "C29_route_values": NOTHING,  # corners of a way
@@ -68,7 +73,7 @@ LIMITS: dict[str, tuple[XmlVersion, ...]] = {
     "C36_one_of": NOTHING,  # an acceleration that is taken over
     "C38_fall": ("1.2", "1.3", "1.4"),
 }
-"""Versions that say a scenario exactly; all of them where it is not named."""
+"""Versions that say a scenario exactly, whatever playing it shows; all where it is not named."""
 
 
 def written(path: Path, version: XmlVersion, *, allow_approx: bool) -> tuple[XmlScenario, ...]:

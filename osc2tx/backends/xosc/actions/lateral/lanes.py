@@ -116,11 +116,11 @@ def lane_change(
         ways = (roads.map.pose(place)[:2] for place in (centre, target))
         to_lane = math.copysign(math.dist(*ways), count)
     way = abs(to_lane + offset - offset_of(state))
-    shape, time, drift = shift(leaf, way, pace, jumps=jumps)
+    shape, time = shift(leaf, way, pace, jumps=jumps)
     if own_lanes is None and reference is not None and pace.duration is None and not jumps:
-        leaf.approximate(
-            f"how far the lane of {reference.name} is away is only known during the run",
-            f"it takes {time:.3g} s, as to a lane beside it",
+        leaf.doubt(
+            f"how far the lane of {reference.name} is away is only known during the run: it takes"
+            f" {time:.3g} s, as to a lane beside it"
         )
     after = replace(state, lane=target, offset=known(offset)).finished(LATERAL)
     if reference is not None and "RelativeTargetLane/entityRef" in leaf.ctx.profile.unsupported:
@@ -141,7 +141,7 @@ def lane_change(
             targetLaneOffset=along_t(leaf, offset, target) or None,
         )
     )
-    during = replace(after, lane=None, offset=None, drift=drift)
+    during = replace(after, lane=None, offset=None)
     return Change(LATERAL, (action,), time, during, after)
 
 

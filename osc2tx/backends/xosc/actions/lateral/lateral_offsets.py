@@ -25,7 +25,7 @@ from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.entities.declared_roads import segment_of
 from osc2tx.backends.xosc.facts.actors import Pace
 from osc2tx.backends.xosc.facts.maps import LanePosition, is_oncoming, lane_from_edge
-from osc2tx.backends.xosc.report import Inexpressible, Metres, Remedy
+from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.state import LATERAL, known
 from osc2tx.xosc import elements as xml
 from osc2tx_shared.classes import replace
@@ -59,12 +59,11 @@ def offset_change(leaf: Leaf, offset: float, pace: Pace) -> Change:
         if is_oncoming(roads.map, lane) or is_oncoming(roads.map, reached):
             raise Inexpressible(NO_ONE_SIDE)
     way = abs(offset - offset_of(leaf.state))
-    shape, time, drift = shift(leaf, way, pace)
+    shape, time = shift(leaf, way, pace)
     if pace.profile == "constant":
-        leaf.approximate(
+        leaf.doubt(
             "the XML states no length for a change of the offset, and a steady one has no peak that"
-            " gives it",
-            Metres(way, "beside, until it is there"),
+            " gives it"
         )
     # The XML gives no time, only the peak of the lateral acceleration: that of the shape.
     half_turn = math.pi / time
@@ -74,7 +73,7 @@ def offset_change(leaf: Leaf, offset: float, pace: Pace) -> Change:
     action = lateral(xml.LaneOffsetAction(dynamics, target, continuous=False))
     after = replace(leaf.state, offset=known(offset)).finished(LATERAL)
     goes_on = abs(offset) < INSIDE
-    during = replace(after, offset=None, drift=drift, aside=way if goes_on else 0.0)
+    during = replace(after, offset=None, returns=goes_on)
     return Change(LATERAL, (action,), time, during, after, goes_on=goes_on)
 
 

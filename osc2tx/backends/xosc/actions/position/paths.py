@@ -8,12 +8,6 @@ from itertools import pairwise
 
 from osc2tx.backends.xosc.actions.arguments import Arguments
 from osc2tx.backends.xosc.actions.leaf import Change, Changes, Leaf, Performance
-from osc2tx.backends.xosc.actions.position.path_steering import (
-    note_jump,
-    note_schedule,
-    note_slant,
-    note_steering,
-)
 from osc2tx.backends.xosc.actions.position.points_and_lines import (
     line_of,
     line_of_route,
@@ -23,11 +17,10 @@ from osc2tx.backends.xosc.actions.position.xml_positions import at_place, lane_p
 from osc2tx.backends.xosc.actions.registry import action, modifier, to_goal
 from osc2tx.backends.xosc.actions.speed.speed_changes import may_jump
 from osc2tx.backends.xosc.entities.declared_roads import segment_of
-from osc2tx.backends.xosc.facts.actors import TOP_SPEED
 from osc2tx.backends.xosc.facts.curves import Line, Waypoint, sample_curve
 from osc2tx.backends.xosc.facts.map_search import MapSegment, crossing_of, graph_of
 from osc2tx.backends.xosc.facts.maps import Pose
-from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.state import LATERAL, LONGITUDINAL, ActorState, known
 from osc2tx.backends.xosc.values.constants import Constant, Named
 from osc2tx.xosc import elements as xml
@@ -114,25 +107,39 @@ def along_line(leaf: Leaf, line: Line, arguments: Arguments) -> Changes:
     if not (line.is_timed or is_exact or _is_there(leaf, corners[0])) and line.frame is None:
         start = xml.RelativeObjectPosition(entityRef=leaf.member.name, dx=0.0, dy=0.0)
         vertices = [(0.0, start), *vertices]  # it goes to the path, it does not jump
-    if line.is_timed and not is_exact:
-        note_schedule(leaf, corners)
-        if line.frame is None:
-            note_jump(leaf, corners[0])
-    elif not is_exact:
-        note_steering(leaf, line, corners)
+    if not is_exact:
+        note_steering(leaf, is_timed=line.is_timed)
     action = follow(leaf, vertices, line.is_timed, is_exact)
     if not line.is_timed:
-        after = _at_end(leaf, line, corners, leaf.state)
+        after = _at_end(leaf, line, corners[-1], leaf.state)
         during = replace(after, lane=None, offset=None, pose=None)
         return (Change(LATERAL, (action,), _time(leaf, corners), during, after),)
     before, end = corners[-2:]
     speed = known(math.dist(end[1:3], before[1:3]) / (end.time - before.time))
-    after = _at_end(leaf, line, corners, replace(leaf.state, speed=speed))
+    after = _at_end(leaf, line, corners[-1], replace(leaf.state, speed=speed))
     during = replace(after, speed=None, lane=None, offset=None, pose=None)
     return (
         Change(LONGITUDINAL, (action,), end.time, during, after),
         Change(LATERAL, (), end.time, during, after),
     )
+
+
+ON_THE_LINE = Remedy(
+    instead="`replay_path`, `replay_trajectory` or `physical_movement(prefer_non_physical)` is on"
+    " the line exactly",
+    asks=("FollowTrajectoryAction/Vehicle",),
+)
+
+
+def note_steering(leaf: Leaf, *, is_timed: bool = False) -> None:
+    """Report that an actor keeps to physics where the XML is on its line, or there in time."""
+    reason = (
+        "it gets to the first point, and from speed to speed, as physics allows; the XML is there"
+        if is_timed
+        else "it steers along the way as physics allows, through corners and into its lane at the"
+        " end; the XML is on the line"
+    )
+    leaf.doubt(reason, ON_THE_LINE)
 
 
 def _time(leaf: Leaf, corners: Sequence[Waypoint]) -> float | None:
@@ -152,9 +159,8 @@ def _is_there(leaf: Leaf, point: Waypoint) -> bool:
     return pose is not None and math.hypot(point.x - pose.x, point.y - pose.y) < 1e-3
 
 
-def _at_end(leaf: Leaf, line: Line, corners: Sequence[Waypoint], state: ActorState) -> ActorState:
+def _at_end(leaf: Leaf, line: Line, end: Waypoint, state: ActorState) -> ActorState:
     """Return what is known at the end of a way, from what is known of the speed there."""
-    end = corners[-1]
     lane = pose = offset = None
     if line.frame is None:
         pose = None if leaf.state.pose is None else Pose(end.x, end.y, end.z, end.h or 0.0)
@@ -162,10 +168,7 @@ def _at_end(leaf: Leaf, line: Line, corners: Sequence[Waypoint], state: ActorSta
             lane = leaf.ctx.roads.locate(end.x, end.y, end.z)
     if lane is not None:
         offset = known(round(lane.offset, 6))
-    fastest = TOP_SPEED if state.speed is None else max(map(abs, state.speed))
-    drift = 0.0 if pose is not None else note_slant(leaf, line, corners, lane, fastest)
-    there = replace(state, lane=lane, offset=offset, pose=pose).finished(LATERAL)
-    return replace(there, drift=drift)
+    return replace(state, lane=lane, offset=offset, pose=pose).finished(LATERAL)
 
 
 # --- elements -----------------------------------------------------------------------------------

@@ -6,8 +6,7 @@ import math
 
 from osc2tx.backends.xosc.actions.arguments import Arguments
 from osc2tx.backends.xosc.actions.leaf import Change, Changes, Leaf, Performance
-from osc2tx.backends.xosc.actions.position.path_steering import note_steering
-from osc2tx.backends.xosc.actions.position.paths import follow
+from osc2tx.backends.xosc.actions.position.paths import follow, note_steering
 from osc2tx.backends.xosc.actions.position.points_and_lines import xml_position
 from osc2tx.backends.xosc.actions.position.xml_positions import (
     XmlPosition,
@@ -19,7 +18,6 @@ from osc2tx.backends.xosc.actions.registry import action, apply_modifiers, to_go
 from osc2tx.backends.xosc.actions.speed.courses import speed_action
 from osc2tx.backends.xosc.entities.cast import VEHICLE, CastMember
 from osc2tx.backends.xosc.facts.actors import CRUISE
-from osc2tx.backends.xosc.facts.curves import Line, Waypoint
 from osc2tx.backends.xosc.facts.maps import Pose
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.state import LATERAL, LONGITUDINAL, ActorState, known
@@ -165,16 +163,11 @@ def _straight_to(leaf: Leaf, target: XmlPosition) -> Performance:
         start = world_position(here._replace(h=heading))
         there = Pose(there.x, there.y, there.z, heading)
         way = math.hypot(there.x - here.x, there.y - here.y)
+        if way == 0.0:
+            raise Inexpressible("the path has no length: it needs two different points")
     changes = apply_modifiers(leaf)
     length = None if way is None or speed is None else way / speed
-    if here is None:
-        leaf.approximate(
-            "how it looks when it sets out is only known during the run, so it turns at once",
-            "at most the circle in which it turns, and later by the time that this takes",
-        )
-    else:
-        ends = tuple(Waypoint(0.0, each.x, each.y, each.z) for each in (here, there))
-        note_steering(leaf, Line(ends), ends, speed)
+    note_steering(leaf)
     vertices = [(0.0, start), (length or 1.0, world_position(there))]
     move = follow(leaf, vertices, length is not None and not changes, is_exact=False)
     after = ActorState(

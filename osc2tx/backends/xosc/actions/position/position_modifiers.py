@@ -112,9 +112,7 @@ def _in_time(leaf: Leaf, call: Arguments, gap: Gap) -> Change:
     course = arrival(speed, missing, time)
     # Without courses of the speed an even change leads to the same place in the same time.
     even = Linear(speed, speed + 2.0 * missing / time, time)
-    faster = even.end - course.value(time)
-    rush = f"it arrives {abs(faster):.2g} m/s too {'fast' if faster > 0.0 else 'slow'}"
-    change = follow_course(leaf, course, even=even, where=f"on the way; {rush}", told=call)
+    change = follow_course(leaf, course, even=even, told=call)
     if change.after.speed is None or change.after.speed.low < 0.0:
         raise Inexpressible("it would have to go backwards")
     return change

@@ -17,7 +17,7 @@ from osc2tx.backends.xosc.entities.cast import PEDESTRIAN
 from osc2tx.backends.xosc.facts.actors import FASTEST, Profile, SCurve, course_of_speed
 from osc2tx.backends.xosc.facts.curves import Waypoint, thinned
 from osc2tx.backends.xosc.facts.maps import Pose
-from osc2tx.backends.xosc.report import Inexpressible, Metres
+from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.state import WAY, known
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.expressions import Symbol
@@ -61,14 +61,7 @@ def stand(leaf: Leaf) -> Change:
     state, speed = leaf.state, leaf.state.known_speed
     if state.pose is None or speed is None:
         change = jump_to(leaf, 0.0)
-        fastest = 3.0 if state.speed is None else state.speed.high
-        course = course_of_speed(fastest, 0.0, FASTEST, leaf.limits)
-        leaf.approximate(
-            "where it stops is only known during the run, so it stops at once",
-            Metres(
-                _covered(course, course.duration), "before the place where it would have stopped"
-            ),
-        )
+        leaf.doubt("where it stops is only known during the run, so it stops at once")
         return change
     course = course_of_speed(speed, 0.0, FASTEST, leaf.limits)
     return walk(leaf, course, course.duration)

@@ -27,7 +27,7 @@ from osc2tx.backends.xosc.facts.actors import (
     course_of_acceleration,
     integral,
 )
-from osc2tx.backends.xosc.report import Inexpressible, Metres
+from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.state import LONGITUDINAL, known
 from osc2tx.backends.xosc.values.constants import as_number
 from osc2tx_shared.classes import replace
@@ -148,8 +148,7 @@ def _ramp(leaf: Leaf, rates: Linear | Quintic, duration: float) -> Change:
     if duration == 0.0:
         after = replace(leaf.state.finished(LONGITUDINAL), rate=rates.end)
         return Change(LONGITUDINAL, (), 0.0, after, after)
-    where = "ahead or behind; the speed at its end is exact"
-    return follow_course(leaf, course, even=even, where=where, rate=rates.end)
+    return follow_course(leaf, course, even=even, rate=rates.end)
 
 
 NEAR = 0.02
@@ -198,12 +197,8 @@ def _shaped(leaf: Leaf, course: Computed) -> Change:
     if speed is None or not speed.low - NEAR <= start <= speed.high + NEAR:
         raise Inexpressible("the shape does not begin with the speed at the start")
     count = next((each for each in COUNTS if _beside(course, each) <= NEAR), COUNTS[-1])
-    off = _beside(course, count)
-    if off > NEAR:
-        leaf.approximate(
-            f"a course of the speed goes through {count} points, in straight lines",
-            Metres(off * course.duration, "ahead or behind"),
-        )
+    if _beside(course, count) > NEAR:
+        leaf.doubt(f"a course of the speed goes through {count} points, in straight lines")
     change = follow_course(leaf, course, count=count)
     if change.during.speed is None or change.during.speed.low < 0.0:
         raise Inexpressible("the shape goes backwards")

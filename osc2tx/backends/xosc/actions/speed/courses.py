@@ -6,14 +6,14 @@ version or tool has none, an even change stands for it, which is not the same on
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from math import ceil
 from typing import Literal
 
 from osc2tx.backends.xosc.actions.arguments import Arguments
-from osc2tx.backends.xosc.actions.leaf import Change, Leaf, Performance, Uneven
-from osc2tx.backends.xosc.facts.actors import Course, Linear, apart, way_between
-from osc2tx.backends.xosc.report import GENERIC, Metres, Remedy
+from osc2tx.backends.xosc.actions.leaf import Change, Leaf, Performance
+from osc2tx.backends.xosc.facts.actors import Course, Linear
+from osc2tx.backends.xosc.report import GENERIC, Remedy
 from osc2tx.backends.xosc.state import LONGITUDINAL, Interval, known
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.expressions import Symbol
@@ -23,9 +23,6 @@ from osc2tx_shared.classes import dataclass, replace
 PROFILE_ACTION = "SpeedProfileAction"
 
 SINCE_PROFILES = Remedy(version="1.2")
-
-NEAR = 0.05
-"""Metres along the road that count as the same place."""
 
 POINTS = 12
 """Points of a smooth course; the way it covers is within 2 cm for changes of 30 m/s."""
@@ -145,7 +142,6 @@ def follow_course(
     course: Course,
     *,
     even: Linear | None = None,
-    where: str = "",
     told: Arguments | None = None,
     rate: float = 0.0,
     count: int = POINTS,
@@ -158,7 +154,7 @@ def follow_course(
     can_draw = leaf.ctx.can(PROFILE_ACTION, "1.2")
     if even is not None and not can_draw:
         reason = "a speed that changes unevenly needs SpeedProfileAction; it changes evenly instead"
-        note_even(leaf, told or leaf.arguments, [(course, even)], reason, where, course.duration)
+        note_even(leaf, told or leaf.arguments, reason)
     world, course = course, course if even is None or can_draw else even
     is_line = isinstance(course, Linear)
     pieces = 1 if is_line else SAMPLES
@@ -166,7 +162,8 @@ def follow_course(
     end = speeds[-1]
     after = replace(leaf.state.finished(LONGITUDINAL), speed=known(end), rate=rate)
     during = replace(after, speed=Interval(min(speeds), max(speeds)))
-    leaf.course = course if leaf.uneven is None else world  # which steps may follow
+    is_same = abs(world.value(world.duration) - end) < SAME
+    leaf.course = world if is_same else course  # which steps may follow
     if is_line:
         action = speed_action(end, "linear", "time", course.duration)
     else:
@@ -174,42 +171,9 @@ def follow_course(
     return Change(LONGITUDINAL, (action,), course.duration, during, after)
 
 
-def note_even(
-    leaf: Leaf,
-    told: Arguments,
-    courses: Iterable[tuple[Course, Linear]],
-    reason: str,
-    where: str,
-    length: float | None = None,
-) -> None:
-    """Report that an even change stands for one that is not even.
-
-    Each course that the world may drive goes with that of the XML; they are compared for so many
-    seconds, by default up to their ends.
-    """
-    pairs = tuple(courses)
-    off = max(way_between(world, even, length) for world, even in pairs)
-    ends = [each.value(each.duration if length is None else length) for each in pairs[0]]
-    if abs(ends[0] - ends[1]) < SAME:
-        leaf.uneven = Uneven(max(apart(world, even) for world, even in pairs), length)
-    if off > NEAR:
-        remedy = SINCE_PROFILES if leaf.ctx.version < "1.2" else GENERIC
-        told.approximate(reason, Metres(off, where), remedy)
-
-
-def note_cut(leaf: Leaf, *, is_by_duration: bool) -> None:
-    """Report that an even change has another speed than that of the world where it is cut short.
-
-    The invocation may be over before its change, if only by its duration.
-    """
-    uneven = leaf.uneven
-    if uneven is None or (is_by_duration and uneven.length == leaf.duration):
-        return
-    leaf.approximate(
-        "what cuts the even change short leaves it at another speed",
-        f"at most {uneven.speed:.2g} m/s off from then on, until it has a new speed",
-        SINCE_PROFILES,
-    )
+def note_even(leaf: Leaf, told: Arguments, reason: str) -> None:
+    """Report that an even change stands for one that is not even."""
+    told.doubt(reason, SINCE_PROFILES if leaf.ctx.version < "1.2" else GENERIC)
 
 
 def through_points(course: Course, count: int = POINTS) -> xml.PrivateAction:

@@ -131,10 +131,7 @@ def reach(leaf: Leaf, gap: Gap, *, keeps: bool, missing: float | None = None) ->
         coordinateSystem="lane" if newer else None,
     )
     if is_rigid and gap.is_time and leaf.state_of(gap.reference, always=True).known_speed is None:
-        leaf.approximate(
-            "a time gap without limits follows each change of a speed at once",
-            "while the other one changes its speed, by what it covers in the lag of a driver",
-        )
+        leaf.doubt("a time gap without limits follows each change of a speed at once")
     return leaf.at_open_speed(longitudinal(action), inf if keeps else None)
 
 
@@ -144,9 +141,8 @@ def _reach_sideways(leaf: Leaf, gap: Gap, *, keeps: bool, missing: float | None)
     _require_side(leaf, gap)
     newer = leaf.ctx.version >= "1.1"
     if not newer:
-        leaf.approximate(
+        leaf.doubt(
             "OpenSCENARIO XML 1.0 counts a lateral distance across the actor, not across the road",
-            "off while it looks aside, by the sine of that angle times the way between both",
             Remedy(version="1.1"),
         )
     is_rigid = keeps and missing is not None and missing <= SURE
@@ -183,10 +179,9 @@ def _note_control(leaf: Leaf, gap: Gap, missing: float | None, *, is_rigid: bool
     if is_rigid:
         mine, theirs = leaf.limits, gap.reference.limits
         if mine.acceleration < theirs.acceleration or mine.deceleration < theirs.deceleration:
-            leaf.approximate(
+            leaf.doubt(
                 f"a gap without limits is kept even where {gap.reference.name} changes its speed"
-                f" faster than {leaf.member.name} can",
-                "none while it does not",
+                f" faster than {leaf.member.name} can"
             )
         return
     bound: Metres | str = "until it is there, at most by what was missing at its start"
@@ -207,10 +202,7 @@ def _measured(leaf: Leaf, gap: Gap) -> tuple[float, bool]:
     if not gap.is_time:
         return round(gap.size - beyond, 6), False
     if abs(beyond) > SURE:
-        leaf.approximate(
-            "a time in the XML counts between reference points, not between fronts",
-            f"off by the time for {abs(beyond):.2g} m",
-        )
+        leaf.doubt("a time in the XML counts between reference points, not between fronts")
     return round(gap.size, 6), False
 
 
@@ -229,8 +221,7 @@ def _require_side(leaf: Leaf, gap: Gap) -> None:
     newer = Remedy(version="1.1")
     if side is not None:
         raise Inexpressible(reason, remedy=newer)
-    bound = f"differs only if it is not on the side `{gap.side}` when it begins"
-    leaf.approximate(reason, bound, newer)
+    leaf.doubt(reason, newer)
 
 
 def _changes_gap(node: ir.Invoke) -> bool:

@@ -28,10 +28,9 @@ from osc2tx.backends.xosc.facts.actors import (
     Pace,
     Profile,
     course_of_speed,
-    way_by_acceleration,
 )
-from osc2tx.backends.xosc.report import GENERIC, Inexpressible, Metres, Remedy
-from osc2tx.backends.xosc.state import LONGITUDINAL, STEADY, Demand, Interval, known
+from osc2tx.backends.xosc.report import GENERIC, Inexpressible, Remedy
+from osc2tx.backends.xosc.state import LONGITUDINAL, Demand, known
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.literals import DynamicsShape
 from osc2tx_shared.classes import replace
@@ -64,12 +63,7 @@ def change_speed(leaf: Leaf, target: float, pace: Pace) -> Change:
     if state.speed == known(target) and not state.is_changing_speed:
         return Change(LONGITUDINAL, (), 0.0, after, after)
     passed = None if state.speed is None else state.speed.over(known(target))
-    up, down = _rates(leaf.limits, pace)  # with which it may be cut short
-    pending = Interval(
-        -down if state.speed is None or state.speed.high > target else 0.0,
-        up if state.speed is None or state.speed.low < target else 0.0,
-    )
-    during = replace(after, speed=passed, aim=target, rate=None, pending=pending)
+    during = replace(after, speed=passed, aim=target, rate=None)
     start = state.known_speed
     if start is not None:
         planned = partial(course_of_speed, start, target, limits=leaf.limits)
@@ -110,7 +104,7 @@ def _from_known(leaf: Leaf, course: Profile, target: float, pace: Pace) -> xml.P
         return speed_action(target, "linear", "time", course.duration)
     if isinstance(course, Cosine):
         return speed_action(target, _curve(leaf, pace), "time", course.duration)
-    _note_acceleration(leaf, target, pace)
+    _note_acceleration(leaf)
     if leaf.ctx.can(PROFILE_ACTION, "1.2"):
         # A tool that carries on an acceleration takes a jump for one, or that of the step before.
         is_carried = leaf.state.jumped and leaf.ctx.profile.carries_acceleration
@@ -120,7 +114,7 @@ def _from_known(leaf: Leaf, course: Profile, target: float, pace: Pace) -> xml.P
         length = min(leaf.duration, length)
     even = Linear(course.value(0.0), course.value(length), length)
     if leaf.ctx.profile.has_shapes:  # others are reported for all changes
-        note_even(leaf, leaf.arguments, [(course, even)], _jerky(leaf), "ahead or behind", length)
+        note_even(leaf, leaf.arguments, _jerky(leaf))
     return speed_action(even.end, "linear", "time", length)
 
 
@@ -130,7 +124,7 @@ def _from_unknown(leaf: Leaf, target: float, pace: Pace) -> xml.PrivateAction:
         shape: DynamicsShape = "linear" if profile == "constant" else _curve(leaf, pace)
         return speed_action(target, shape, "time", pace.duration)
     if profile in ("none", "asap"):
-        _note_acceleration(leaf, target, pace)
+        _note_acceleration(leaf)
     if profile in ("none", "asap") and leaf.ctx.can(PROFILE_ACTION, "1.2"):
         return within_limits(target, leaf.limits, pace)
     limit = _limit_towards(leaf, target, profile)
@@ -139,12 +133,7 @@ def _from_unknown(leaf: Leaf, target: float, pace: Pace) -> xml.PrivateAction:
     curve: DynamicsShape = "sinusoidal" if profile == "smooth" else "linear"
     if leaf.ctx.can(RATE, "1.0"):
         if profile in ("none", "asap"):
-            courses = (
-                (course_of_speed(v, target, pace._replace(duration=None), leaf.limits), v)
-                for v in leaf.state.speed or (0.0, TOP_SPEED)  # with which it may begin
-            )
-            evens = [(own, Linear(v, target, abs(target - v) / rate)) for own, v in courses]
-            note_even(leaf, leaf.arguments, evens, _jerky(leaf), "ahead or behind")
+            note_even(leaf, leaf.arguments, _jerky(leaf))
         return speed_action(target, curve, "rate", rate)  # which is the peak of the shape
     return speed_action(target, "linear", "time", _longest(leaf, target, profile, rate))
 
@@ -189,9 +178,9 @@ def _limit_towards(leaf: Leaf, target: float, profile: str) -> float:
     if speed is not None and aim is not None and aim != target and speed.low <= aim <= speed.high:
         taken = limits.acceleration if target > aim else limits.deceleration
     if profile == "asap" and limits.acceleration != limits.deceleration:
-        leaf.approximate(
-            "whether it has to go faster or slower is only known during the run",
-            f"it uses {taken:g} m/s^2 in both directions",
+        leaf.doubt(
+            "whether it has to go faster or slower is only known during the run, so it changes at"
+            f" {taken:g} m/s^2 in both directions",
             Remedy(version="1.2"),
         )
     return taken
@@ -221,24 +210,15 @@ def within_limits(target: float, limits: Limits, pace: Pace) -> xml.PrivateActio
 # --- reports ------------------------------------------------------------------------------------
 
 
-def _note_acceleration(leaf: Leaf, target: float, pace: Pace) -> None:
+def _note_acceleration(leaf: Leaf) -> None:
     """Report that a change takes over an acceleration: that of the XML begins without any."""
-    rate, speed, limits = leaf.state.rate, leaf.state.speed, leaf.limits
-    rates = leaf.state.pending if rate is None else known(rate)
-    has_profiles = leaf.ctx.can(PROFILE_ACTION, "1.2")
-    if rates == STEADY:
+    rate, has_profiles = leaf.state.rate, leaf.ctx.can(PROFILE_ACTION, "1.2")
+    if rate == 0.0:
         return
     if rate is None and has_profiles and leaf.ctx.profile.carries_acceleration:
         return  # it takes over that of a change that is interrupted, not of one that is over
-    if speed is None:
-        time = max(map(abs, rates)) / limits.jerk
-        bound: Metres | str = f"it comes to its speed at most {2.0 * time:.2g} s sooner or later"
-    else:
-        ways = [way_by_acceleration(v, target, pace, rates, limits) for v in speed]
-        bound = Metres(max(ways), "ahead or behind")
-    leaf.approximate(
+    leaf.doubt(
         "it takes over the acceleration of the change before; one of the XML begins without any",
-        bound,
         Remedy(version=None if has_profiles else "1.2", profile="esmini"),
     )
 

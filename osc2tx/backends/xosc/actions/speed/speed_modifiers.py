@@ -27,7 +27,6 @@ RELATIVE = {"faster_than": 1.0, "slower_than": -1.0, "same_as": 1.0}
 """Argument that names a reference -> sign of the difference to its speed."""
 
 
-UNTIL_REACHED = "until the speed is reached; the speed itself is exact"
 ABSOLUTE = Remedy(instead="`speed` with the speed itself is exact", asks=("SpeedActionDynamics",))
 
 
@@ -139,11 +138,11 @@ def _relative(leaf: Leaf, call: Arguments, name: str, difference: float) -> Chan
             "the difference to the speed of another actor has a course of its own in the world, and"
             " a rate in the XML"
         )
-        call.approximate(reason, UNTIL_REACHED, ABSOLUTE)
+        call.doubt(reason, ABSOLUTE)
     if "SpeedActionDynamics/rate" in leaf.ctx.profile.unsupported:
         shape, dimension, length = "step", "time", 0.0
         at_once = f"{leaf.ctx.profile.name} takes up such a speed at once"
-        call.approximate(at_once, UNTIL_REACHED, GENERIC)
+        call.doubt(at_once, GENERIC)
     goal = speed_of(reference.name, difference)
     if factor is not None:
         goal = speed_of(reference.name, factor, "factor")
@@ -161,9 +160,7 @@ def _rate_towards(
     limits, mine = leaf.limits, leaf.state.known_speed
     faster, slower = COMFORT * limits.acceleration, COMFORT * limits.deceleration
     theirs = leaf.state_of(reference).known_speed
-    if mine is None or theirs is None:
-        bound = UNTIL_REACHED
-    else:
+    if mine is not None and theirs is not None:
         missing = (theirs * factor if factor is not None else theirs + more) - mine
         demand, share = leaf.ctx.demand_on(reference.name), 1.0 if factor is None else abs(factor)
         rises, falls = (
@@ -177,11 +174,9 @@ def _rate_towards(
             is_down = rate == slower or (missing >= -SAME and falls <= min(rate, slower))
             if is_up and is_down:
                 return rate
-        bound = f"until the speed is reached, from which {abs(missing):.2g} m/s are missing"
-    call.approximate(
+    call.doubt(
         f"how fast {leaf.member.name} takes up a speed relative to one that changes is one rate in"
         " the XML, and another one for braking in the world",
-        bound,
         ABSOLUTE,
     )
     return min(faster, slower)
