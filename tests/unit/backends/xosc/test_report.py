@@ -62,7 +62,7 @@ def test_reports_fit_it(case: Path) -> None:
         assert grades == sorted(grades, reverse=True), "the worst comes first"
         each = [(e["grade"], e["construct"]) for e in told for _ in ("", *e.get("also", ()))]
         assert sorted(lost) == sorted(each)
-        assert lost or report["notes"]
+        assert lost or report["notes"] or report["unmeasured"]
 
 
 def test_an_exact_document_needs_no_report() -> None:
