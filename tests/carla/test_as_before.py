@@ -136,7 +136,7 @@ def test_a_check_repairs_what_a_killed_client_left(
     assert broken.returncode == 4 and "has ended its process (code -9)" in errors
     check = [sys.executable, "-m", "osc2tx", "world", "check", "carla"]
     check += ["--carla", f"127.0.0.1:{server.port}", "--output-format", "json"]
-    for options, says in (([], "the next run, or --fix, puts back"), (["--fix"], "put back what")):
+    for options, says in (([], "the next run, or --fix, restores"), (["--fix"], "restored what")):
         ended = subprocess.run([*check, *options], cwd=ROOT, capture_output=True, text=True)
         assert ended.returncode == 0, ended.stderr
         assert json.loads(ended.stdout)[5]["found"].startswith(says)
@@ -152,7 +152,7 @@ def test_a_level_that_was_loaded_since_has_nothing_to_repair(
     lines = [["server", where], ["episode", 1], ["own actors", 7]]
     (journals / "dead.jsonl").write_text("".join(json.dumps(each) + "\n" for each in lines))
     run(server)
-    assert "put back" not in capsys.readouterr().err
+    assert "restored" not in capsys.readouterr().err
     assert list(journals.iterdir()) == []
 
 

@@ -45,14 +45,14 @@ def test_something_else_listens() -> None:
     with socket.create_server(("127.0.0.1", 0)) as other:
         port = other.getsockname()[1]
         said = message_of(in_carla(RunSettings(), port, carla_timeout=1.0))
-    assert "nothing of CARLA answers within 1 s" in said
+    assert "no CARLA server responds within 1 s" in said
 
 
 def test_the_port_of_the_streams_is_closed() -> None:
     """`docker run -p 2000:2000`: calls are answered, and no snapshot arrives."""
     with StandInProcess([OWN_MAPS], "highway", "--no-streams") as server:
         said = message_of(in_carla(RunSettings(), server.port, carla_timeout=2.0))
-        assert f"nothing answers at 127.0.0.1:{server.port + 1}" in said
+        assert f"nothing responds at 127.0.0.1:{server.port + 1}" in said
         assert "sends no snapshots" in said
 
 
@@ -88,7 +88,7 @@ def test_a_synchronous_mode_that_a_client_left_behind(
     client_of(server.port, SYNCHRONOUS + "    os._exit(0)").wait()
     settings = RunSettings(max_time=1.0)
     said = message_of(in_carla(settings, server.port))
-    assert "no client makes its steps" in said and "--carla-reset" in said
+    assert "no client ticks it" in said and "--carla-reset" in said
     result = run(in_carla(settings, server.port, carla_reset=True))
     assert result.status == "timeout"
     assert "ended a synchronous mode" in capsys.readouterr().err

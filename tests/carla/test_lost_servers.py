@@ -190,7 +190,7 @@ def test_no_answer_is_no_hang(server: StandInProcess) -> None:
     client.ask("connect", "127.0.0.1", server.port, 60.0)
     os.kill(server.pid, signal.SIGSTOP)
     try:
-        with pytest.raises(SimulatorError, match="does not answer any more"):
+        with pytest.raises(SimulatorError, match="does not respond any more"):
             while True:  # the signal takes a moment to stop it
                 client.ask("level")
     finally:

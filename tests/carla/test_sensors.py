@@ -79,7 +79,7 @@ def test_the_table_says_what_is_missing(stack: Path) -> None:
         ("{", "cannot be read"),
         ("{}", "a list of sensors is missing"),
         ('[{"id": "a"}]', "needs id, type"),
-        ('[{"id": "a", "type": "vehicle.tesla.model3"}]', "no blueprint of a sensor"),
+        ('[{"id": "a", "type": "vehicle.tesla.model3"}]', "not a blueprint of a sensor"),
         (
             '[{"id": "a", "type": "sensor.other.imu"}, {"id": "a", "type": "sensor.other.gnss"}]',
             "two",

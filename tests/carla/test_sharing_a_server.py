@@ -178,7 +178,7 @@ def test_two_egos_of_others(server: StandInProcess, beside: Any) -> None:
 
 def test_an_ego_that_never_comes(server: StandInProcess) -> None:
     settings = in_carla(RunSettings(expect=True), server.port, wait_for={"ego": 0.3})
-    with pytest.raises(SimulatorError, match="no actor with role_name ego came"):
+    with pytest.raises(SimulatorError, match="no actor with role_name ego appeared"):
         run("cut_in", settings)
     assert not server.ask("stand_in_synchronous")
 

@@ -249,7 +249,7 @@ def test_what_has_to_be_tried(number: int, fault: str, says: str) -> None:
 def test_the_proposed_gains_are_the_remedy() -> None:
     """Brakes are half as strong as the gains of runs expect."""
     with StandInProcess([OWN_MAPS], "highway", "--fault", "soft-brakes") as server:
-        proposed = checked(server.port, "--drive")[17]["meaning"].partition(" has driven cars")[0]
+        proposed = checked(server.port, "--drive")[17]["meaning"].partition(" makes driven cars")[0]
         assert proposed == "--carla-gains brake=0.24"
         assert checked(server.port, "--drive", *proposed.split())[17]["status"] == "ok"
 
