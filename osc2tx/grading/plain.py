@@ -8,7 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from osc2tx.xosc import elements as xml
 from osc2tx.xosc.element import Element
+from osc2tx.xosc.player.bodies import KINDS
 
 WITHOUT_MOTION = frozenset(
     {
@@ -37,10 +39,22 @@ DEFAULTS: Mapping[str, Mapping[str, str]] = {
 """Values of required attributes that documents omit."""
 
 
+ANY_VEHICLE = xml.Vehicle(
+    xml.BoundingBox(
+        xml.Center(x=1.4, y=0.0, z=0.75), xml.Dimensions(length=4.6, width=1.9, height=1.5)
+    ),
+    name="vehicle",
+    vehicleCategory="car",
+)
+"""What an entity is that no catalog at hand describes."""
+
+
 def plain(node: Element) -> Element:
     """Return a document, its parameters at their values, as the player takes it."""
     attributes = dict(DEFAULTS.get(node.tag, {})) | dict(node.attributes)
     children = [plain(child) for child in node.children if not _is_idle(child)]
+    if node.tag == "ScenarioObject" and not any(child.tag in KINDS for child in children):
+        children.append(ANY_VEHICLE)
     return node.with_attributes(attributes).with_children(*children)
 
 

@@ -80,7 +80,7 @@ class Actions:
             case "TeleportAction":
                 yield from self._routes.teleport(node, said, actor)
             case "RoutingAction":
-                yield from self._routes.effects(node.inner, said, actor)
+                yield from self._routes.effects(node.inner, said, actor, at_start=at_start)
             case "ControllerAction" | "ActivateControllerAction":
                 actor.is_under_test = actor.is_under_test or gives_control(node)
                 note_controllers(node, self._document)

@@ -13,12 +13,15 @@ from osc2tx.importing.points import odr_point
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.player.bodies import Pose
 from osc2tx.xosc.player.places import waypoints
+from osc2tx.xosc.player.shapes import Way
 from osc2tx_runtime.opendrive import LanePosition
 
 MILLIMETRES = 2e-3  # m: how near a point of the map has to be to the place that it stands for
 MOST_IN_CALL = 100
 """Points in a call; each of more has a name of its own."""
 SPARSE = 0.05  # m: a corner that is nearer to the line between others is left out
+LAST = 0.5
+"""m: length of the last chord of a curve."""
 
 
 def sparse(poses: Sequence[Pose]) -> list[Pose]:
@@ -41,6 +44,21 @@ def sparse(poses: Sequence[Pose]) -> list[Pose]:
     return [*sparse(poses[: worst + 2])[:-1], *sparse(poses[worst + 1 :])]
 
 
+def of_curve(way: Way) -> Way:
+    """Return the corners that a polyline needs to lead along a curve.
+
+    The last chord is short and has the direction of the end, in which an actor leaves the curve.
+    """
+    (before, last), (end, goal) = way[-2:]
+    length = math.dist(last[:2], goal[:2])
+    kept = {id(pose) for pose in sparse([pose for _, pose in way])}
+    found = [corner for corner in way if id(corner[1]) in kept]
+    if length > LAST:
+        x, y = goal.x - LAST * math.cos(goal.h), goal.y - LAST * math.sin(goal.h)
+        found.insert(-1, (end - (end - before) * LAST / length, Pose(x, y, goal.h)))
+    return found
+
+
 class Courses:
     """Finds out where routes and trajectories lead."""
 
@@ -53,6 +71,8 @@ class Courses:
         for vertex in self._ground.resolved(trajectory).below(xml.Vertex):
             place = self._ground.known(vertex.one(xml.Position))
             if not isinstance(place, LanePosition) or self._ground.map is None:
+                return []
+            if not 0.0 <= place.s <= self._ground.map.roads[place.road].length:
                 return []
             t = place.offset * self._ground.map.travel_direction(place.road, place.lane)
             at = literal(round(place.s, 6), LENGTH), literal(round(t, 6), LENGTH)

@@ -88,9 +88,9 @@ def without_events(
         if event is None:
             continue
         waited = re.compile(rf"@{event}\b")
-        elsewhere = [text for each in left for text in _texts(each.members)] + texts
+        elsewhere = [text for each in left for text in texts_of(each.members)] + texts
         begins = [each for each in found if each and each[0].text == f"wait @{event}"]
-        rest = [text for each in found for text in _texts(each[1:] if each in begins else each)]
+        rest = [text for each in found for text in texts_of(each[1:] if each in begins else each)]
         labels = {each.label for each in branch.members if each.label}
         named = re.compile("|".join(rf"@{label}\b" for label in labels) or r"(?!)")
         if not begins or any(waited.search(text) or named.search(text) for text in elsewhere):
@@ -115,10 +115,11 @@ def _emitted_by(branch: Branch) -> str | None:
     return last.text.removeprefix("emit ")
 
 
-def _texts(statements: Iterable[Statement]) -> Iterator[str]:
+def texts_of(statements: Iterable[Statement]) -> Iterator[str]:
+    """Yield the texts of statements and of all in them, with their modifiers."""
     for each in statements:
         yield from (each.text, *each.modifiers)
-        yield from _texts(each.members or ())
+        yield from texts_of(each.members or ())
 
 
 def first_of(endings: Sequence[Waits]) -> Waits:
@@ -167,7 +168,7 @@ def go_on_behind(branch: Branch, branches: Sequence[Branch], vehicles: Container
     found: Waits = []
     others = {slot for each in branches if each is not branch for slot in each.slots}
     for actor in sorted(branch.actors):
-        told = [text for text in _texts(branch.members) if text.startswith(f"{actor}.")]
+        told = [text for text in texts_of(branch.members) if text.startswith(f"{actor}.")]
         slot = (actor, LONGITUDINAL)
         first = next(each for each in branches if actor in each.actors)
         if slot not in others and (first is branch or slot in branch.slots):

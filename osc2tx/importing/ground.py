@@ -138,11 +138,17 @@ class Ground:
         except (MapError, LookupError):
             return None
 
-    def trajectory(self, node: Node) -> Way | None:
-        """Return the corners of the trajectory in an element, if they are known."""
+    def trajectory(self, node: Node, here: Pose | None = None) -> Way | None:
+        """Return the corners of the trajectory in an element, if they are known.
+
+        Args:
+            node: The element.
+            here: Where a curve begins that begins with its actor.
+        """
         try:
-            assert self.map is not None
-            return trajectory_way(self.resolved(node), self.bodies, self.map)
+            return trajectory_way(
+                self.resolved(node), self.bodies, self.map, here  # type: ignore[arg-type]
+            )
         except UNKNOWN:
             return None
 

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 
 from osc2tx.importing.cast import Actor
-from osc2tx.importing.courses import SPARSE, sparse
+from osc2tx.importing.courses import SPARSE, of_curve
 from osc2tx.importing.cursor import Node
 from osc2tx.importing.dimensions import LENGTH, TIME, Quantity, literal
 from osc2tx.importing.effects import BOTH, LATERAL, Effect, Reader
 from osc2tx.importing.points import Spot
 from osc2tx.importing.program import Statement
 from osc2tx.xosc.player.bodies import Pose
-from osc2tx.xosc.player.shapes import CHORD
+from osc2tx.xosc.player.shapes import CHORD, Way
+
+ORIGIN = Pose(0.0, 0.0, 0.0)
 
 
 class Routes(Reader):
@@ -54,7 +57,7 @@ class Routes(Reader):
         way = self._places.points.route(stops, actor.name)
         return Statement(f"{actor.verb}()", modifiers=[f"along({way})"])
 
-    def effects(self, node: Node, said: str, actor: Actor) -> Iterator[Effect]:
+    def effects(self, node: Node, said: str, actor: Actor, *, at_start: bool) -> Iterator[Effect]:
         """Return what a routing action does."""
         if node.tag == "AssignRouteAction":
             statement = self.assigned(node, said, actor)
@@ -74,24 +77,33 @@ class Routes(Reader):
             )
             return
         if node.tag == "FollowTrajectoryAction":
-            yield from self._trajectory(node, said, actor)
+            yield from self._trajectory(node, said, actor, at_start=at_start)
             return
         node.leave_out("the language has no such action")
 
-    def _trajectory(self, node: Node, said: str, actor: Actor) -> Iterator[Effect]:
-        way = self._places.trajectory(node)
+    def _trajectory(
+        self, node: Node, said: str, actor: Actor, *, at_start: bool
+    ) -> Iterator[Effect]:
+        timed = any(each.tag == "Timing" for each in node.element.walk())
+        way, own = self._places.trajectory(node), self._places.courses.offsets(node, said)
+        is_from_actor = way is None
+        way = self._places.trajectory(node, ORIGIN) if way is None else way
         if way is None:
             node.leave_out("the trajectory is not known before the run")
             return
+        way = self._thinned(node, way, timed=timed)
+        reference = said
+        if is_from_actor:
+            own = [(x, y) for _, (x, y, _) in way]
+        elif not at_start and (not own or None in own):
+            reference, own = self._beside(node, way) or (said, own)
         if any(text.startswith("$") for each in node.element.walk() for _, text in each.attributes):
             node.approximate("the trajectory is that of its nominal values")
-        timed = any(each.tag == "Timing" for each in node.element.walk())
         stamps = [literal(round(time, 6), TIME) for time, _ in way] if timed else []
         offset = self._values.quantity(node, "initialDistanceOffset", LENGTH)
-        own = self._places.courses.offsets(node, said)
         from_here = [each for each in own if each is not None]
         if own and len(from_here) == len(own) and not offset.is_open and offset.value == 0.0:
-            call = self._from_here(from_here, stamps, actor)
+            call = self._from_here(from_here, stamps, actor, self._actors[reference].name)
         else:
             # behind a corner where the actor is, the way there is its matter
             comes_to_it = own[:1] == [(0.0, 0.0)] and len(own) == len(way) and not timed
@@ -105,13 +117,43 @@ class Routes(Reader):
         yield Effect(Statement(f"{actor.name}{call}", length=length), actor.name, slots)
         self._lanes[said] = None
 
+    def _thinned(self, node: Node, way: Way, *, timed: bool) -> Way:
+        """Return the corners of a trajectory; of a curve as many as it needs."""
+        if any(each.tag == "Polyline" for each in self._places.resolved(node).walk()):
+            return way
+        off = CHORD if timed else CHORD + SPARSE
+        node.approximate(f"the curve is a polyline with chords {off:g} m from it at most")
+        return way if timed else of_curve(way)
+
+    def _beside(self, node: Node, way: Way) -> tuple[str, list[tuple[float, float] | None]] | None:
+        """Return the entity beside which a trajectory leads, and its corners as seen from there."""
+        walk = self._places.resolved(node).walk()
+        named = sorted({ref for each in walk if (ref := each.get("entityRef")) is not None})
+        body = self._places.bodies.get(named[0]) if named else None
+        if body is None or body.pose is None:
+            return None
+        if len(named) > 1 or named[0] not in self._actors:
+            node.approximate(f"the places beside {' and '.join(named)} are those at the start")
+            return None
+        x, y, h = body.pose
+        cos, sin = math.cos(h), math.sin(h)
+        seen = [(pose.x - x, pose.y - y) for _, pose in way]
+        node.approximate(f"it leads where it would from the place at which {named[0]} starts")
+        return named[0], [
+            (round(dx * cos + dy * sin, 6), round(dy * cos - dx * sin, 6)) for dx, dy in seen
+        ]
+
     def _from_here(
-        self, offsets: Sequence[tuple[float, float]], stamps: Sequence[str], actor: Actor
+        self,
+        offsets: Sequence[tuple[float, float]],
+        stamps: Sequence[str],
+        actor: Actor,
+        reference: str,
     ) -> str:
-        """Return the call for a trajectory that begins where its actor is."""
+        """Return the call for a trajectory from where its actor, or another one, is."""
         shape = "trajectory" if stamps else "path"
         made = self._places.points.relative(shape, offsets, stamps, actor.name)
-        told = f"relative: {made}, reference: {actor.name}, transform: object_relative"
+        told = f"relative: {made}, reference: {reference}, transform: object_relative"
         return f".replay_{shape}({told})"
 
     def _absolute(
@@ -123,10 +165,6 @@ class Routes(Reader):
         actor: Actor,
     ) -> str:
         """Return the call for a trajectory in the world."""
-        if not any(each.tag == "Polyline" for each in self._places.resolved(node).walk()):
-            poses = poses if stamps else sparse(poses)
-            off = CHORD if stamps else CHORD + SPARSE
-            node.approximate(f"the curve is a polyline with chords {off:g} m from it at most")
         kind, on_road = "_odr_points", ", on_road_network: false"
         points = self._places.courses.corners(node)
         if len(points) != len(poses):

@@ -17,6 +17,7 @@ from osc2tx.importing.endings import (
     held_for,
     is_open,
     seconds,
+    texts_of,
     without_events,
 )
 from osc2tx.importing.names import Names
@@ -176,9 +177,22 @@ class _Members:
             content = [*before, *beside, *branch.members]
         elif branch.members and branch.members[0].members is not None:
             # what is waited for in several ways goes on beside what is done up to then
-            later = composed("serial", branch.members)
-            content = [*before, composed("parallel", [*beside, later])]
+            up_to = self._first_of([said for said in alone if self._inits.lasting(said)], branch)
+            later = composed("serial", branch.members[:up_to])
+            content = [
+                *before,
+                composed("parallel", [*beside, later]),
+                *branch.members[up_to:],
+            ]
         return self._held(content, [each for each in alone if self._inits.has_path(each)])
+
+    def _first_of(self, said: Sequence[str], branch: Branch) -> int | None:
+        """Return the member of a branch with the first action of some entities, but the first."""
+        told = tuple(f"{self._actors[each].name}." for each in said)
+        for index, member in enumerate(branch.members):
+            if index > 0 and told and any(text.startswith(told) for text in texts_of([member])):
+                return index
+        return None
 
     def _held(self, content: list[Statement], said: Sequence[str]) -> list[Statement]:
         """Return statements with a first wait during which actors hold their speeds."""

@@ -22,9 +22,13 @@ def place_of(node: Element, bodies: Mapping[str, Body], road_map: RoadMap) -> Pl
     match node.tag:
         case "LanePosition":
             road, lane = node.said("roadId"), int(number(node, "laneId"))
-            # the t axis of a lane is that of its road
-            offset = number(node, "offset") * road_map.travel_direction(road, lane)
-            where: LanePosition | Pose = LanePosition(road, lane, number(node, "s"), offset)
+            s, offset = number(node, "s"), number(node, "offset")
+            # the t axis of a lane is that of its road; lane 0 has no width
+            where: LanePosition | Pose = (
+                LanePosition(road, lane, s, offset * road_map.travel_direction(road, lane))
+                if lane
+                else _flat(road_map.road_pose(road, s, offset))
+            )
         case "RoadPosition":
             road, s, t = node.said("roadId"), number(node, "s"), number(node, "t")
             where = _flat(road_map.road_pose(road, s, t))
@@ -162,8 +166,17 @@ def _on_route(node: Element, bodies: Mapping[str, Body], road_map: RoadMap) -> L
     return _flat(road_map.road_pose(at.road, at.s, number(position, "t")))
 
 
-def trajectory_way(node: Element, bodies: Mapping[str, Body], road_map: RoadMap) -> Way:
-    """Return the corners of the trajectory in an element."""
+def trajectory_way(
+    node: Element, bodies: Mapping[str, Body], road_map: RoadMap, here: Pose | None = None
+) -> Way:
+    """Return the corners of the trajectory in an element.
+
+    Args:
+        node: The element.
+        bodies: All bodies.
+        road_map: The map.
+        here: Where the body is that follows it: a curve without a first position begins there.
+    """
 
     def pose_of(position: Element) -> Pose:
         where, h = place_of(position.inner, bodies, road_map)
@@ -173,7 +186,7 @@ def trajectory_way(node: Element, bodies: Mapping[str, Body], road_map: RoadMap)
     shape = next((each for each in node.walk() if each.tag == "Shape"), None)
     if shape is None:
         raise Unplayable("its trajectory is in no catalog", node.place)
-    return way_of(shape, pose_of)
+    return way_of(shape, pose_of, here)
 
 
 def _on_trajectory(node: Element, bodies: Mapping[str, Body], road_map: RoadMap) -> Pose:

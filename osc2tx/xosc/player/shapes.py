@@ -23,8 +23,13 @@ PoseOf = Callable[[Element], Pose]
 """The pose of a `Position`."""
 
 
-def way_of(shape: Element, pose_of: PoseOf) -> Way:
+def way_of(shape: Element, pose_of: PoseOf, here: Pose | None = None) -> Way:
     """Return the corners of the shape of a trajectory.
+
+    Args:
+        shape: The shape.
+        pose_of: Gives the poses of positions.
+        here: Where a curve begins that has no first position; `None`: nowhere.
 
     Raises:
         Unplayable: It is no polyline, clothoid or NURBS.
@@ -39,7 +44,7 @@ def way_of(shape: Element, pose_of: PoseOf) -> Way:
         case "Clothoid":
             found = _clothoid(inner, pose_of)
         case "ClothoidSpline":
-            found = _clothoids(inner, pose_of)
+            found = _clothoids(inner, pose_of, here)
         case "Nurbs":
             found = _nurbs(inner, pose_of)
         case _:
@@ -99,15 +104,17 @@ def _clothoid(node: Element, pose_of: PoseOf) -> Way:
     return list(_curve(start, length, begin, begin + rate * length, times))
 
 
-def _clothoids(node: Element, pose_of: PoseOf) -> Way:
+def _clothoids(node: Element, pose_of: PoseOf, here: Pose | None) -> Way:
     segments = list(node.all(xml.ClothoidSplineSegment))
     stamps = [number(each, "timeStart") for each in segments] + [number(node, "timeEnd")]
     found: Way = []
     for segment, times in zip(segments, pairwise(stamps), strict=True):
         given = segment.find(xml.PositionStart)
-        if given is None and not found:
+        before = found[-1][1] if found else here
+        if given is None and before is None:
             raise Unplayable("its first segment begins nowhere", segment.place)
-        start = found[-1][1] if given is None else pose_of(given)
+        start = pose_of(given) if given is not None else before
+        assert start is not None
         start = start._replace(h=start.h + number(segment, "hOffset"))
         curvatures = number(segment, "curvatureStart"), number(segment, "curvatureEnd")
         piece = list(_curve(start, number(segment, "length"), *curvatures, times))

@@ -36,16 +36,16 @@ class Ways:
             return None
         if not (node.tag == "FollowTrajectoryAction"):
             raise Unplayable(f"<{node.tag}> is not played", node.place)
-        way = trajectory_way(node, self._scene.bodies, self._scene.map)
+        way = trajectory_way(node, self._scene.bodies, self._scene.map, body.pose)
         timing = node.one(xml.TimeReference).find(xml.Timing)
         is_timed = timing is not None
+        if timing is not None and timing.domainAbsoluteRelative == "absolute":
+            way = [(time - self._scene.time, pose) for time, pose in way]
         domains = (LATERAL, LONGITUDINAL) if is_timed else (LATERAL,)
         run = Running(body, domains, self._scene.time, None, way=way, is_timed=is_timed)
         run.points = lengths_of(way)
         run.driven = number(node, "initialDistanceOffset")
         if timing is not None:
-            if timing.domainAbsoluteRelative != "relative":
-                raise Unplayable("only times since the start of the action are played", node.place)
             run.length = way[-1][0]
         body.place = None
         if not is_timed or way[0][0] == 0.0:
