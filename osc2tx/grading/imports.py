@@ -2,6 +2,8 @@
 
 Both are compared by states alone: positions, the end and the verdict. An event that a tool sees one
 step late is a delay, not a deviation: a position is compared with those of the surrounding steps.
+Where what follows multiplies the delay, a deviation that vanishes with the length of the steps is
+none.
 """
 
 from __future__ import annotations
@@ -20,10 +22,12 @@ from osc2tx.xosc.player import BY_THE_STANDARD
 from osc2tx_runtime import RunSettings, Scenario
 from osc2tx_runtime.domain.map.search import find_map
 from osc2tx_runtime.opendrive import MapError
-from osc2tx_shared.classes import dataclass
+from osc2tx_shared.classes import dataclass, replace
 
 COARSE, FINE, FINEST = 0.05, 0.02, 0.0025  # s: lengths of steps
 NEAR = 1.0  # m: a smaller deviation may come from a late event at speed, which a shorter step shows
+SHRINKS = 1.15
+"""A deviation is proportional to the step with at most so much more of it."""
 LONGEST = 90.0  # s: the time until then counts
 MOST_ACTOR_STEPS = 8_000
 """Maximum number of steps of actors, of the coarse length, in a run."""
@@ -91,12 +95,24 @@ def import_deviation(
     case = _Case(
         played, map_file or find_map(None, ()), scenario, names, values, starts, is_endless
     )
-    found = case.at(COARSE)
+    found = coarse = case.at(COARSE)
     if not found.is_exact:
         found = case.at(FINE)
-    if EXACT <= found.place < NEAR and found.time <= found.late + ROUNDING:
-        found = case.at(FINEST)
+    if found.is_exact:
+        return found
+    is_near = found.place < NEAR and found.time <= found.late + ROUNDING
+    if is_near or _shrinks(coarse, COARSE, found, FINE):
+        finest = case.at(FINEST)
+        if finest.is_exact or not _shrinks(found, FINE, finest, FINEST):
+            return finest
+        return replace(finest, place=0.0, time=0.0)  # what remains is the lateness of a step
     return found
+
+
+def _shrinks(found: ImportDeviation, dt: float, finer: ImportDeviation, shorter: float) -> bool:
+    """Whether a deviation becomes shorter as steps do, so that none is left without steps."""
+    most = SHRINKS * shorter / dt
+    return finer.place <= most * found.place and finer.time <= most * found.time + ROUNDING
 
 
 @dataclass(frozen=True)

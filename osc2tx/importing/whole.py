@@ -186,13 +186,13 @@ class _Members:
             ]
         return self._held(content, [each for each in alone if self._inits.has_path(each)])
 
-    def _first_of(self, said: Sequence[str], branch: Branch) -> int | None:
-        """Return the member of a branch with the first action of some entities, but the first."""
+    def _first_of(self, said: Sequence[str], branch: Branch) -> int:
+        """Return how many members of a branch come before the first action of some entities."""
         told = tuple(f"{self._actors[each].name}." for each in said)
         for index, member in enumerate(branch.members):
             if index > 0 and told and any(text.startswith(told) for text in texts_of([member])):
                 return index
-        return None
+        return len(branch.members)
 
     def _held(self, content: list[Statement], said: Sequence[str]) -> list[Statement]:
         """Return statements with a first wait during which actors hold their speeds."""

@@ -183,6 +183,8 @@ class Evaluator:
         """Whether an element is in a state, or just in a transition."""
         if state.endswith("Transition"):
             event = self._event_of.get(id(element), element)  # an action ends with its event
+            if not isinstance(event, xml.Event | xml.Act):
+                return self._turns(element, state)
             return (id(event), state) in self.transitions
         if isinstance(element, xml.Event | xml.Act):
             return self._state(element) == state
@@ -192,6 +194,16 @@ class Evaluator:
         if inner == {"completeState"}:
             return state == "completeState"
         return state == ("standbyState" if inner == {"standbyState"} else "runningState")
+
+    def _turns(self, element: Element, state: str) -> bool:
+        """Whether a group of events is in a transition: with its first one, or with its last."""
+        events = list(element.below(xml.Event))
+        if not any((id(event), state) in self.transitions for event in events):
+            return False
+        if state == "startTransition":
+            begun = (self.started_at.get(id(event), self.step) for event in events)
+            return all(step == self.step for step in begun)
+        return all(self._state(event) == "completeState" for event in events)
 
     def _state_of_action(self, action: xml.Action) -> str:
         runs = self._runs.get(id(action))
