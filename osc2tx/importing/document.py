@@ -69,7 +69,7 @@ class Document:
         comments: Sequence[Comment],
         folders: Folders = NOWHERE,
     ) -> None:
-        self.root = _scoped(root)
+        self.root = _scoped(_with_each(root, _named))
         self.path = path
         self.comments = comments
         self._folders = folders
@@ -264,6 +264,16 @@ def _with_value(node: Element, values: Mapping[str, str]) -> Element:
     attributes = dict(node.attributes)
     attributes["value"] = values.get(attributes.get("name", ""), attributes.get("value", ""))
     return node.with_attributes(attributes)
+
+
+def _named(node: Element) -> Element:
+    """Return declarations of parameters whose names some documents begin with a `$`."""
+    if node.tag == "ParameterDeclarations":
+        return _with_each(node, _named)
+    name = node.get("name") or ""
+    if node.tag != "ParameterDeclaration" or not name.startswith("$"):
+        return node
+    return node.with_attributes({**dict(node.attributes), "name": name.lstrip("$")})
 
 
 def _scoped(node: Element) -> Element:

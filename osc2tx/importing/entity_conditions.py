@@ -25,6 +25,7 @@ from osc2tx.xosc.player.distances import asked
 
 DIRECTIONS: Mapping[str, str] = {"longitudinal": "x", "lateral": "y", "vertical": "z"}
 STANDING = 0.01  # m/s
+SYSTEMS = ("alongRoute", "relativeDistanceType", "coordinateSystem", "routingAlgorithm")
 CLEARANCE = "RelativeClearanceCondition"
 MANY = 20  # lanes: no road has more
 
@@ -125,7 +126,7 @@ class EntityConditions:
             negative: The same one behind the actor, or to its right.
         """
         b_said, b = self._values.text(node, "entityRef"), self._actor(node)
-        for name in ("alongRoute", "relativeDistanceType", "coordinateSystem", "routingAlgorithm"):
+        for name in SYSTEMS:
             node.text(name)
         kind, system = asked(self._places.resolved(node))
         mode = _mode(node, default=False)
@@ -165,31 +166,28 @@ class EntityConditions:
         return None if abs(along) < 1e-6 else 1 if along > 0 else -1
 
     def _collision_time(self, node: Node, said: str, a: str) -> str | None:
-        target = node.one("TimeToCollisionConditionTarget").inner
-        if target.tag != "EntityRef":
-            target.leave_out("the language has a time to collision with actors only")
-            return None
-        b = self._actor(target)
-        for name in (
-            "freespace",
-            "relativeDistanceType",
-            "coordinateSystem",
-            "alongRoute",
-            "routingAlgorithm",
-        ):
+        for name in (*SYSTEMS, "freespace"):
             node.text(name)
+        target = node.one("TimeToCollisionConditionTarget")
+        if target.inner.tag != "EntityRef":
+            return self._at_places.in_time(node, target, a)
+        target = target.inner
+        b = self._actor(target)
         kind, system = asked(self._places.resolved(node))
         rule = node.said("rule")
         sign = self._side(said, target.said("entityRef"), kind)
-        is_behind = self._look_alike(said, target.said("entityRef"))
-        if is_behind and kind == "longitudinal" and sign is not None and rule.startswith("less"):
-            # a distance that shrinks is positive, so the rule tells nothing of one that grows
+        if kind == "longitudinal" and sign is not None and rule.startswith("less"):
             time = self._values.quantity(node, "value", TIME).within(PRODUCT)
-            behind, ahead = (a, b) if sign > 0 else (b, a)
+            is_behind = self._look_alike(said, target.said("entityRef"))
+            behind, ahead = (a, b) if sign > 0 or not is_behind else (b, a)
             method = "object_distance" if system == "entity" else "road_distance"
-            mode = _mode(node, default=False)
-            way = f"{behind}.{method}({ahead}, longitudinal{mode})"
-            return f"{way} {COMPARISONS[rule]} {time} * ({behind}.speed - {ahead}.speed)"
+            way = f"{behind}.{method}({ahead}, longitudinal{_mode(node, default=False)})"
+            met = f"{way} {COMPARISONS[rule]} {time} * "
+            if is_behind:
+                # a distance that shrinks is positive, so the rule tells nothing of one that grows
+                return f"{met}({behind}.speed - {ahead}.speed)"
+            if sign > 0:  # they meet; behind each other they part
+                return f"{way} > 0m and {met}({behind}.speed + {ahead}.speed)"
         node.approximate("the time to collision counts from the velocities of both boxes")
         return self._compared(node, f"{a}.time_to_collision({b})", TIME)
 
@@ -233,7 +231,10 @@ class EntityConditions:
             for each in lanes
             for end in ("from", "to")
         )
-        if is_narrow or (node.text("oppositeLanes") or "false").lower() not in ("true", "1"):
+        aside = self._aside(said, lanes) if is_narrow else None
+        if aside is not None:
+            node.approximate("lanes beside the actor are as wide as the one in which it starts")
+        elif is_narrow or (node.text("oppositeLanes") or "false").lower() not in ("true", "1"):
             node.approximate("a clearance is that of all lanes")
         texts = []
         for key, b in others.items():
@@ -254,9 +255,24 @@ class EntityConditions:
                 f"{measure} < -{behind.within(PRODUCT)}" if behind.value else f"{measure} < 0m"
             )
             is_ahead = f"{measure} > {ahead.within(SUM)}"
-            texts.append({-1: is_behind, 1: is_ahead}.get(side, f"{is_behind} or {is_ahead}"))
+            text = {-1: is_behind, 1: is_ahead}.get(side, f"{is_behind} or {is_ahead}")
+            if aside is not None and is_along:
+                across = f"{a}.road_distance({b}, lateral)"
+                text += f" or {across} < {aside[0]} or {across} > {aside[1]}"
+            texts.append(text)
         node.use_all()
         return joined_by("and", texts) if texts else "true"
+
+    def _aside(self, said: str, lanes: Sequence[Node]) -> tuple[str, str] | None:
+        """Return how far to the right and to the left a range of lanes reaches."""
+        body, road_map = self._places.bodies.get(said), self._places.map
+        if body is None or body.place is None or road_map is None or len(lanes) != 1:
+            return None
+        width = road_map.lane_width(body.place.road, body.place.lane, body.place.s)
+        ends = (self._values.nominal(lanes[0], name, MANY) for name in ("from", "to"))
+        low, high = sorted(ends)
+        right, left = (low - 0.5) * width, (high + 0.5) * width
+        return literal(round(right, 3), LENGTH), literal(round(left, 3), LENGTH)
 
     def _collision(self, node: Node, a: str) -> str | None:
         by = node.inner

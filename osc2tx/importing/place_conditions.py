@@ -7,7 +7,7 @@ from collections.abc import Mapping
 
 from osc2tx.importing.cast import Actor
 from osc2tx.importing.cursor import Node
-from osc2tx.importing.dimensions import LENGTH, SUM, Quantity, literal, total
+from osc2tx.importing.dimensions import LENGTH, PRODUCT, SUM, TIME, Quantity, literal, total
 from osc2tx.importing.places import Places
 from osc2tx.importing.values import Values
 from osc2tx.xosc.element import Element
@@ -40,6 +40,17 @@ class PlaceConditions:
             return None
         within = self._values.quantity(node, "tolerance", LENGTH)
         return f"{a}.distance_to_xyz_point({point}, euclidean) <= {within.within(SUM)}"
+
+    def in_time(self, node: Node, target: Node, a: str) -> str | None:
+        """Return the condition on the time until an actor is at a place, at its speed."""
+        point = self._point(target, a)
+        if point is None:
+            return None
+        node.approximate("the distance to a position is the Euclidean one")
+        mode = ", bounding_boxes" if _is_free(node) else ""
+        time = self._values.quantity(node, "value", TIME).within(PRODUCT)
+        measure = f"{a}.distance_to_xyz_point({point}, euclidean{mode})"
+        return f"{measure} {COMPARISONS[node.said('rule')]} {time} * {a}.speed"
 
     def far(self, node: Node, said: str, a: str) -> str | None:
         """Return the condition on how far an actor is from a place."""

@@ -12,6 +12,7 @@ from osc2tx.importing.dimensions import LENGTH, TIME, Quantity, literal
 from osc2tx.importing.effects import BOTH, LATERAL, Effect, Reader
 from osc2tx.importing.points import Spot
 from osc2tx.importing.program import Statement
+from osc2tx.xosc import elements as xml
 from osc2tx.xosc.player.bodies import Pose
 from osc2tx.xosc.player.shapes import CHORD, Way
 
@@ -91,11 +92,11 @@ class Routes(Reader):
         if way is None:
             node.leave_out("the trajectory is not known before the run")
             return
-        way = self._thinned(node, way, timed=timed)
+        way = self._since_its_start(node, self._thinned(node, way, timed=timed))
         reference = said
         if is_from_actor:
             own = [(x, y) for _, (x, y, _) in way]
-        elif not at_start and (not own or None in own):
+        elif not at_start and (not own or None in own) and own[:1] != [(0.0, 0.0)]:
             reference, own = self._beside(node, way) or (said, own)
         if any(text.startswith("$") for each in node.element.walk() for _, text in each.attributes):
             node.approximate("the trajectory is that of its nominal values")
@@ -117,6 +118,15 @@ class Routes(Reader):
         yield Effect(Statement(f"{actor.name}{call}", length=length), actor.name, slots)
         self._lanes[said] = None
 
+    def _since_its_start(self, node: Node, way: Way) -> Way:
+        """Return the corners with times since the trajectory begins, not the run."""
+        kinds = (each.get("domainAbsoluteRelative") for each in node.element.walk())
+        begin = self._readings.begin
+        if begin == 0.0 or "absolute" not in kinds:
+            return way
+        node.approximate(f"it is taken to begin after {begin:g} s, as far as times say it")
+        return [(time - begin, pose) for time, pose in way]
+
     def _thinned(self, node: Node, way: Way, *, timed: bool) -> Way:
         """Return the corners of a trajectory; of a curve as many as it needs."""
         if any(each.tag == "Polyline" for each in self._places.resolved(node).walk()):
@@ -127,13 +137,13 @@ class Routes(Reader):
 
     def _beside(self, node: Node, way: Way) -> tuple[str, list[tuple[float, float] | None]] | None:
         """Return the entity beside which a trajectory leads, and its corners as seen from there."""
-        walk = self._places.resolved(node).walk()
-        named = sorted({ref for each in walk if (ref := each.get("entityRef")) is not None})
-        body = self._places.bodies.get(named[0]) if named else None
-        if body is None or body.pose is None:
-            return None
-        if len(named) > 1 or named[0] not in self._actors:
-            node.approximate(f"the places beside {' and '.join(named)} are those at the start")
+        positions = self._places.resolved(node).below(xml.Position)
+        refs = [each.inner.get("entityRef") or "" for each in positions]
+        named = sorted(set(refs) - {""})
+        body = self._places.bodies.get(named[0]) if len(named) == 1 and all(refs) else None
+        if body is None or body.pose is None or named[0] not in self._actors:
+            if named:
+                node.approximate(f"the places beside {' and '.join(named)} are those at the start")
             return None
         x, y, h = body.pose
         cos, sin = math.cos(h), math.sin(h)

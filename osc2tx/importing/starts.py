@@ -81,12 +81,24 @@ class Starts:
                     self._ways[said] = way
                 continue
             for effect in self._actions.effects(action, (said,), at_start=True):
+                if ".replay_" in effect.statement.text and inner.tag == "RoutingAction":
+                    self._begin_on(inner, said, places)
                 if effect.slots == {LATERAL} and effect.statement.length is None:
                     self._paths[said] = effect.statement
                 elif effect.statement.text.startswith(f"{actor.name}.assign_speed("):
                     self._speeds[said] = effect.statement
                 else:
                     self._others.setdefault(said, []).append(effect.statement)
+
+    def _begin_on(self, node: Node, said: str, places: Places) -> None:
+        """Forget where an entity is put that a trajectory puts elsewhere at once."""
+        way, spot = places.trajectory(node), self._spots.get(said)
+        put = None if spot is None else places.coordinates(spot[1].one("Position"))
+        if way and spot is not None and put is not None and way[0][0] == 0.0:
+            if math.dist(way[0][1][:2], put) < ROOM:
+                return
+            spot[1].idle("its trajectory begins elsewhere at the same time")
+            del self._spots[said]
 
     def order(self, said: Sequence[str]) -> list[str]:
         """Return entities with those that others refer to first."""

@@ -6,7 +6,15 @@ from xml.etree import ElementTree as ET
 
 import pytest
 
-from tests.importing.documents import after, at_time, document, event, imported, speed_change
+from tests.importing.documents import (
+    after,
+    at_time,
+    document,
+    event,
+    faults,
+    imported,
+    speed_change,
+)
 from tests.importing.test_command import command, written
 
 EVENTS = event("One", speed_change("20"), at_time("1")) + event(
@@ -91,3 +99,12 @@ def test_an_encoding_that_a_document_declares(tmp_path: Path) -> None:
     source.write_bytes(text.encode("latin-1"))
     assert command("import", source, "-o", tmp_path / "out").return_value == 0
     assert "Zwei ähnliche" in (tmp_path / "out" / "two_cars.osc").read_text(encoding="utf-8")
+
+
+def test_a_name_of_a_parameter_with_a_sign() -> None:
+    parameter = '<ParameterDeclaration name="$Goal" parameterType="double" value="25"/>'
+    found = imported(
+        document(event("Faster", speed_change("$Goal"), at_time("1")), parameters=parameter)
+    )
+    assert "goal: speed = 90kph" in found.text
+    assert faults(found) == []

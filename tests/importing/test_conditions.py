@@ -1,10 +1,15 @@
 """Conditions on places and clearances: the same events at the same times as in the document."""
 
+from pathlib import Path
+
 import pytest
 
 from tests.importing.documents import document, event, faults, imported, speed_change
 from tests.importing.test_forms import HEADWAY
+from tests.importing.test_measured import report_of
 from tests.importing.test_structure import apart
+
+BESIDE = '<RelativeLanePosition entityRef="ego" dLane="1" ds="30" offset="0"/>'
 
 FAR = """<DistanceCondition freespace="false" rule="{}" value="{}" coordinateSystem="{}"
   relativeDistanceType="longitudinal"><Position>{}</Position></DistanceCondition>"""
@@ -53,3 +58,33 @@ def test_an_acceleration_across_the_lane() -> None:
     found = imported(document(event("Stop", speed_change("5"), HEADWAY.format("other", condition))))
     assert "wait other.acceleration.translational.y < 1mpss" in found.text
     assert faults(found) == []
+
+
+def collision_time(target: str) -> str:
+    """Return a condition of `other` on a time to a collision."""
+    return f"""<Condition name="near" delay="0" conditionEdge="none"><ByEntityCondition>
+      <TriggeringEntities triggeringEntitiesRule="any"><EntityRef entityRef="other"/>
+      </TriggeringEntities><EntityCondition><TimeToCollisionCondition value="2" rule="lessThan"
+      freespace="false" coordinateSystem="entity" relativeDistanceType="longitudinal">
+      <TimeToCollisionConditionTarget>{target}</TimeToCollisionConditionTarget>
+      </TimeToCollisionCondition></EntityCondition></ByEntityCondition></Condition>"""
+
+
+def test_the_time_to_a_collision_with_oncoming_traffic() -> None:
+    text = document(
+        event("Brake", speed_change("5"), collision_time('<EntityRef entityRef="ego"/>'))
+    )
+    oncoming = '<LanePosition roadId="1" laneId="3" s="400" offset="0"/>'
+    lane = '<LanePosition roadId="1" laneId="-3" s="100" offset="0"/>'
+    found = imported(text.replace(lane, oncoming, 1).replace(BESIDE, lane.replace("-3", "-2")))
+    way = "other.object_distance(ego, longitudinal)"
+    assert f"wait {way} > 0m and {way} < 2s * (other.speed + ego.speed)" in found.text
+    assert faults(found) == []
+
+
+def test_the_time_to_a_place(tmp_path: Path) -> None:
+    """15 m/s: 2 s before a place 100 m ahead are 70 m, after 4.67 s."""
+    place = '<Position><LanePosition roadId="1" laneId="-2" s="230"/></Position>'
+    text = document(event("Brake", speed_change("5"), collision_time(place)))
+    report = report_of(tmp_path, text)
+    assert report["measured"]["exact"] is True

@@ -1,9 +1,11 @@
 """What the player refuses, and what it makes of parameters: with a place and a reason."""
 
+import re
 from pathlib import Path
 
 import pytest
 
+from osc2tx.xosc import elements as xml
 from osc2tx.xosc import read
 from osc2tx.xosc.arithmetic import evaluated, text_value
 from osc2tx.xosc.element import Unresolved
@@ -143,3 +145,20 @@ def test_at_the_end_of_its_road_an_entity_stands() -> None:
     evaluator.play(1.0)
     assert evaluator.ends == {body.name: 0.0}
     assert {row[1:] for row in evaluator.track[body.name]} == {(*body.here[:2], 0.0)}
+
+
+def test_a_maneuver_ends_with_its_last_event() -> None:
+    """The storyboard ends at once with it, as with the event."""
+    maneuver = next(read(TEXT).below(xml.Maneuver))
+    *_, event = maneuver.below(xml.Event)
+    ends = []
+    for kind, name in (("maneuver", maneuver.name), ("event", event.name)):
+        condition = (
+            f'<StopTrigger><ConditionGroup><Condition name="c" delay="0" conditionEdge="rising">'
+            f'<ByValueCondition><StoryboardElementStateCondition storyboardElementType="{kind}" '
+            f'storyboardElementRef="{name}" state="endTransition"/></ByValueCondition></Condition>'
+            f"</ConditionGroup></StopTrigger></Storyboard>"
+        )
+        text = re.sub(r"<StopTrigger>.*</StopTrigger>\s*</Storyboard>", condition, TEXT, flags=re.S)
+        ends.append(Evaluator(text, MAP, 0.05).play(30.0))
+    assert ends[0] == ends[1] < 30.0

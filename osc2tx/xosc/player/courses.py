@@ -47,7 +47,7 @@ def _resolved(node: Element, declared: Mapping[str, str]) -> Element:
     for name, text in attributes.items():
         if text.startswith("$"):
             value = text_value(text, declared)
-            if value is None and name == "name":
+            if value is None and (name == "name" or name.endswith("Ref")):
                 continue  # a name of an element may be any text
             if value is None:
                 raise Unplayable(f"`{text}` has no value", node.place)

@@ -84,7 +84,9 @@ def _test_of(body: Body, node: Element, world: World) -> Test:
             other = world.bodies[node.said("entityRef")]
             return _test_of_time(body, other, node, world, lambda: body.v)
         case "TimeToCollisionCondition":
-            target = node.one(xml.TimeToCollisionConditionTarget).one(xml.EntityRef)
+            target = node.one(xml.TimeToCollisionConditionTarget).find(xml.EntityRef)
+            if target is None:
+                return _test_of_time_to_place(body, node, world)
             other, way = world.bodies[target.said("entityRef")], asked(node)
             closing = world.ruler.closing_speed
             return _test_of_time(body, other, node, world, lambda: closing(body, other, *way))
@@ -132,6 +134,18 @@ def _test_of_time(body: Body, other: Body, node: Element, world: World, speed: M
     def test() -> bool:
         distance, now = relative(body, other, node), speed()
         return now > 0.0 and holds(distance / now, value)
+
+    return test
+
+
+def _test_of_time_to_place(body: Body, node: Element, world: World) -> Test:
+    """Return the test of the time to a place that does not move."""
+    holds, value, ruler = RULES[node.said("rule")], number(node, "value"), world.ruler
+    position = node.one(xml.TimeToCollisionConditionTarget).one(xml.Position).inner
+
+    def test() -> bool:
+        place, _ = place_of(position, world.bodies, ruler.map)
+        return body.v > 0.0 and holds(ruler.to_place(body, place, node) / body.v, value)
 
     return test
 
