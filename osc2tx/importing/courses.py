@@ -11,7 +11,7 @@ from osc2tx.importing.dimensions import LENGTH, literal
 from osc2tx.importing.ground import UNKNOWN, Ground
 from osc2tx.importing.points import odr_point
 from osc2tx.xosc import elements as xml
-from osc2tx.xosc.player.bodies import Pose
+from osc2tx.xosc.player.bodies import Body, Pose
 from osc2tx.xosc.player.places import waypoints
 from osc2tx.xosc.player.shapes import Way
 from osc2tx_runtime.opendrive import LanePosition
@@ -77,6 +77,25 @@ class Courses:
             t = place.offset * self._ground.map.travel_direction(place.road, place.lane)
             at = literal(round(place.s, 6), LENGTH), literal(round(t, 6), LENGTH)
             found.append(odr_point(place.road, str(place.lane), *at))
+        return found
+
+    def along_road(self, trajectory: Node, body: Body) -> list[str]:
+        """Return the points that a trajectory leads along on the road of an entity beside it.
+
+        Their s counts from the entity. None if others are in it.
+        """
+        found = []
+        for vertex in self._ground.resolved(trajectory).below(xml.Vertex):
+            position = vertex.one(xml.Position)
+            place = self._ground.known(position)
+            if position.inner.tag != "RelativeLanePosition" or body.place is None:
+                return []
+            if not isinstance(place, LanePosition) or place.road != body.place.road:
+                return []
+            assert self._ground.map is not None
+            t = place.offset * self._ground.map.travel_direction(place.road, place.lane)
+            s = literal(round(place.s - body.place.s, 6), LENGTH)
+            found.append(odr_point("", str(place.lane), s, literal(round(t, 6), LENGTH)))
         return found
 
     def offsets(self, trajectory: Node, said: str) -> list[tuple[float, float] | None]:

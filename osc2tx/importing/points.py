@@ -123,11 +123,29 @@ class Points:
             name: The actor.
         """
         corners = [self.pose(*each, name) for each in offsets]
-        made = self._names.new("", kind="point", base=f"{name}_{kind}")
+        return self._relative(f"relative_{kind}_pose_3d", corners, stamps, f"{name}_{kind}")
+
+    def relative_on_road(
+        self, kind: str, corners: Sequence[str], stamps: Sequence[str], name: str
+    ) -> str:
+        """Return the name of a path or trajectory along the road from where an actor is.
+
+        Args:
+            kind: `path` or `trajectory`.
+            corners: Its points; their s counts from the actor.
+            stamps: Times of the corners of a trajectory.
+            name: The actor.
+        """
+        return self._relative(f"relative_{kind}_odr", corners, stamps, f"{name}_{kind}")
+
+    def _relative(
+        self, type_name: str, corners: Sequence[str], stamps: Sequence[str], base: str
+    ) -> str:
+        made = self._names.new("", kind="point", base=base)
         told = [f"it.points == [{', '.join(corners)}]", "it.interpolation == straight_line"]
         if stamps:
             told.append(f"it.time_stamps == [{', '.join(stamps)}]")
-        self.lines += declaration(made, f"relative_{kind}_pose_3d", told)
+        self.lines += declaration(made, type_name, told)
         return made
 
     def route(self, stops: Sequence[LanePosition], name: str) -> str:

@@ -12,8 +12,7 @@ from osc2tx.importing.dimensions import LENGTH, TIME, Quantity, literal
 from osc2tx.importing.effects import BOTH, LATERAL, Effect, Reader
 from osc2tx.importing.points import Spot
 from osc2tx.importing.program import Statement
-from osc2tx.xosc import elements as xml
-from osc2tx.xosc.player.bodies import Pose
+from osc2tx.xosc.player.bodies import Body, Pose
 from osc2tx.xosc.player.shapes import CHORD, Way
 
 ORIGIN = Pose(0.0, 0.0, 0.0)
@@ -93,18 +92,26 @@ class Routes(Reader):
             node.leave_out("the trajectory is not known before the run")
             return
         way = self._since_its_start(node, self._thinned(node, way, timed=timed))
-        reference = said
+        reference, on_road = said, list[str]()
         if is_from_actor:
             own = [(x, y) for _, (x, y, _) in way]
         elif not at_start and (not own or None in own) and own[:1] != [(0.0, 0.0)]:
-            reference, own = self._beside(node, way) or (said, own)
+            reference = self._reference(node) or ""
+            if reference:
+                on_road = self._places.courses.along_road(node, self._places.bodies[reference])
+                own = [] if on_road else self._seen_from(self._places.bodies[reference], way)
         if any(text.startswith("$") for each in node.element.walk() for _, text in each.attributes):
             node.approximate("the trajectory is that of its nominal values")
         stamps = [literal(round(time, 6), TIME) for time, _ in way] if timed else []
         offset = self._values.quantity(node, "initialDistanceOffset", LENGTH)
         from_here = [each for each in own if each is not None]
-        if own and len(from_here) == len(own) and not offset.is_open and offset.value == 0.0:
-            call = self._from_here(from_here, stamps, actor, self._actors[reference].name)
+        is_whole = not offset.is_open and offset.value == 0.0
+        if on_road and is_whole:
+            made = self._places.points.relative_on_road(_shape(stamps), on_road, stamps, actor.name)
+            call = self._from_there(made, stamps, reference, "road_relative")
+        elif own and len(from_here) == len(own) and is_whole:
+            made = self._places.points.relative(_shape(stamps), from_here, stamps, actor.name)
+            call = self._from_there(made, stamps, reference or said, "object_relative")
         else:
             # behind a corner where the actor is, the way there is its matter
             comes_to_it = own[:1] == [(0.0, 0.0)] and len(own) == len(way) and not timed
@@ -135,36 +142,32 @@ class Routes(Reader):
         node.approximate(f"the curve is a polyline with chords {off:g} m from it at most")
         return way if timed else of_curve(way)
 
-    def _beside(self, node: Node, way: Way) -> tuple[str, list[tuple[float, float] | None]] | None:
-        """Return the entity beside which a trajectory leads, and its corners as seen from there."""
-        positions = self._places.resolved(node).below(xml.Position)
+    def _reference(self, node: Node) -> str | None:
+        """Return the entity beside which all of a trajectory leads, in the run."""
+        walk = self._places.resolved(node).walk()
+        positions = [each for each in walk if each.tag in ("Position", "PositionStart")]
         refs = [each.inner.get("entityRef") or "" for each in positions]
         named = sorted(set(refs) - {""})
         body = self._places.bodies.get(named[0]) if len(named) == 1 and all(refs) else None
-        if body is None or body.pose is None or named[0] not in self._actors:
-            if named:
-                node.approximate(f"the places beside {' and '.join(named)} are those at the start")
-            return None
-        x, y, h = body.pose
+        if body is not None and body.pose is not None and named[0] in self._actors:
+            node.approximate(f"it leads where it would from the place at which {named[0]} starts")
+            return named[0]
+        if named:
+            node.approximate(f"the places beside {' and '.join(named)} are those at the start")
+        return None
+
+    @staticmethod
+    def _seen_from(body: Body, way: Way) -> list[tuple[float, float] | None]:
+        """Return how far (m) corners are ahead and left of an entity."""
+        x, y, h = body.here
         cos, sin = math.cos(h), math.sin(h)
         seen = [(pose.x - x, pose.y - y) for _, pose in way]
-        node.approximate(f"it leads where it would from the place at which {named[0]} starts")
-        return named[0], [
-            (round(dx * cos + dy * sin, 6), round(dy * cos - dx * sin, 6)) for dx, dy in seen
-        ]
+        return [(round(dx * cos + dy * sin, 6), round(dy * cos - dx * sin, 6)) for dx, dy in seen]
 
-    def _from_here(
-        self,
-        offsets: Sequence[tuple[float, float]],
-        stamps: Sequence[str],
-        actor: Actor,
-        reference: str,
-    ) -> str:
+    def _from_there(self, made: str, stamps: Sequence[str], reference: str, transform: str) -> str:
         """Return the call for a trajectory from where its actor, or another one, is."""
-        shape = "trajectory" if stamps else "path"
-        made = self._places.points.relative(shape, offsets, stamps, actor.name)
-        told = f"relative: {made}, reference: {reference}, transform: object_relative"
-        return f".replay_{shape}({told})"
+        told = f"relative: {made}, reference: {self._actors[reference].name}"
+        return f".replay_{_shape(stamps)}({told}, transform: {transform})"
 
     def _absolute(
         self,
@@ -188,3 +191,7 @@ class Routes(Reader):
             return f".replay_trajectory(absolute: road.create_trajectory{kind}({told}))"
         begin = f", start_offset: {offset.text}" if offset.is_open or offset.value else ""
         return f".replay_path(absolute: road.create_path{kind}({told}){begin})"
+
+
+def _shape(stamps: Sequence[str]) -> str:
+    return "trajectory" if stamps else "path"
