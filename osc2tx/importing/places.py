@@ -188,9 +188,21 @@ class Places(Ground):
             text = odr_point(where.road, str(where.lane), *at)
             return Spot(text, yaw="" if heading is None else heading_of(heading))
         assert isinstance(where, Pose)
-        point = self.points.point(where.x, where.y, name)
-        h = where.h if heading is None else heading
-        return Spot(position=point, yaw=heading_of(h))
+        pose = where if heading is None else where._replace(h=heading)
+        in_lane = self._in_lane(pose)
+        if in_lane:
+            return Spot(in_lane)
+        return Spot(position=self.points.point(*pose[:2], name), yaw=heading_of(pose.h))
+
+    def _in_lane(self, pose: Pose) -> str:
+        """Return a point of the map that is a place in the world, with its heading; `""`: none."""
+        points = self.courses.on_map([pose])
+        if not points or self.map is None:
+            return ""
+        lane = self.map.locate(pose.x, pose.y, heading=pose.h)
+        assert lane is not None
+        is_along = abs(wrapped(self.map.pose(lane).h - pose.h)) < STRAIGHT
+        return points[0] if is_along else ""
 
 
 def _yaw(turn: float) -> str:
