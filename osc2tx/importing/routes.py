@@ -98,8 +98,10 @@ class Routes(Reader):
         elif not at_start and (not own or None in own) and own[:1] != [(0.0, 0.0)]:
             reference = self._reference(node) or ""
             if reference:
-                on_road = self._places.courses.along_road(node, self._places.bodies[reference])
-                own = [] if on_road else self._seen_from(self._places.bodies[reference], way)
+                body = self._places.bodies[reference]
+                if reference not in self._lanes:  # it has been in its lane since the start
+                    on_road = self._places.courses.along_road(node, body)
+                own = [] if on_road else self._seen_from(body, way)
         if any(text.startswith("$") for each in node.element.walk() for _, text in each.attributes):
             node.approximate("the trajectory is that of its nominal values")
         stamps = [literal(round(time, 6), TIME) for time, _ in way] if timed else []
