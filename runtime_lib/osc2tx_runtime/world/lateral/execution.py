@@ -325,7 +325,7 @@ def excessive_shift(
 
 def _no_lane(road_map: RoadMap, place: LanePosition, lanes: int) -> str:
     side = "left" if lanes > 0 else "right"
-    count = "is not a driving lane" if abs(lanes) == 1 else f"are not {abs(lanes)} driving lanes"
+    count = "is no driving lane" if abs(lanes) == 1 else f"are not {abs(lanes)} driving lanes"
     return (
         f"there {count} to the {side} of lane {place.lane} of road {place.road}"
         f" at s = {place.s:.1f} m"
