@@ -52,6 +52,11 @@ Write: TypeAlias = Callable[[Choosing], tuple[Context, Element | None]]
 Unlike: TypeAlias = frozenset[Place]
 """Attributes in which documents differ."""
 
+NO_VALUES = (
+    "hardly any values of the open parameters keep the constraints, and none is found: bounds that"
+    " are computed, as in `keep(b in [a..20m])`, leave some in each run"
+)
+
 SAME: Unlike = frozenset()
 
 
@@ -103,6 +108,8 @@ class LogicalWriter:
         self.parameters = open_parameters(scenario, module)
         self.domain = Domain(scenario, module, self.parameters)
         self._branches = [p for p in self.parameters if p.is_branch]
+        constraints = (each.span for each in scenario.constraints)
+        self._span = next(constraints, scenario.span)
         self._version = version
         self._write = write
         self._written: dict[frozenset[tuple[str, object]], Element | None] = {}
@@ -112,9 +119,11 @@ class LogicalWriter:
         found: list[Logical] = []
         for is_beside in (False, True):  # the middle may be a special place
             nominal = self.domain.nominal(is_beside=is_beside)
-            if nominal is None:  # constraints leave nothing
+            if nominal is None:
                 least = self.domain.at([0.0] * len(self.parameters))
-                return self._settled(self._branches, least)
+                nothing = self._settled(self._branches, least)
+                nothing.ctx.report.cannot("constraints", self._span, NO_VALUES)
+                return nothing
             found.append(self._settled(self.parameters, nominal))
             if found[-1].document is None or len(found[-1].kept) == len(self.parameters):
                 return found[-1]

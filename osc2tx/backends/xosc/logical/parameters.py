@@ -106,17 +106,6 @@ class OpenParameter:
             return min(int(low + share * (high - low + 1.0)), int(high))
         return high if share == 1.0 else low + share * (high - low)
 
-    def share(self, value: Constant, values: Values) -> float:
-        """Return the place of a value between its first (0) and its last one (1)."""
-        if self.choices:
-            return self.choices.index(value) / len(self.choices)
-        low, high = self.limits(values)
-        if not isinstance(value, (int, float)) or low == high:
-            return 0.0
-        if self.is_whole:
-            return (value - low + 0.5) / (high - low + 1.0)
-        return min(max((value - low) / (high - low), 0.0), 1.0)
-
     def probes(self) -> tuple[float, ...]:
         """Return places at which a document is tested: all that are listed, and one more."""
         count = len(self.choices)

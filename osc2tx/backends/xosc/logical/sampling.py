@@ -3,8 +3,7 @@
 All combinations would be 5^n rows. Instead there are ten for each parameter, and one: a Latin
 hypercube. In it each parameter goes from end to end at equal steps and has each value once, while
 the orders are those of Halton sequences, so that all corners of the domain are visited. It is
-deterministic. Rows that break a constraint are left out, and denser tables tried instead; where
-hardly any row is left, the constraints are solved for the places of the rows.
+deterministic. Rows that break a constraint are left out, and denser tables tried instead.
 """
 
 from __future__ import annotations
@@ -12,18 +11,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from functools import cached_property
 from itertools import count, islice, product
-from math import inf, prod
-from sys import maxsize
-from typing import NamedTuple, cast
+from math import prod
+from typing import NamedTuple
 
 from osc2tx import ir
 from osc2tx.backends.xosc.logical.parameters import OpenParameter, Point
-from osc2tx.backends.xosc.logical.relations import relations_of
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.scopes import Scope, open_scopes
-from osc2tx.backends.xosc.values.constants import Constant
 from osc2tx.backends.xosc.values.folding import Values
-from osc2tx.support.solving import Interval, Solver
 from osc2tx.xosc.arithmetic import Range
 
 RUNS_EACH = 10
@@ -161,41 +156,8 @@ class Domain:
                 break
             density *= 2
             if density > DENSEST or wanted * density * number > MOST_TRIED:
-                found = max(found, self._solved(wanted), key=len)
                 break
         return sorted(_thinned(found, wanted), key=self._order)
-
-    def _solved(self, wanted: int) -> list[Row]:
-        """Return rows of values that keep the constraints as far as these can be solved."""
-        domains = {parameter.key: self._whole(parameter) for parameter in self.parameters}
-        scopes, others = self._symbolic(0.0), self._symbolic(1.0)
-        solver = Solver(domains, relations_of(self.parameters, scopes, others))
-        rows = []
-        for shares in _hypercube(len(self.parameters), wanted):
-            inside = [(share * (wanted - 1) + 0.5) / wanted for share in shares]  # no ends: `<`
-            places = {p.key: share for p, share in zip(self.parameters, inside, strict=True)}
-            chosen = cast("Point | None", solver.choose(places))
-            if chosen is not None and self.allows(point := {**self._folded, **chosen}):
-                rows.append(Row(self._shares(point), point))
-        return rows
-
-    def _symbolic(self, share: float) -> list[Scope]:
-        """Return the scopes in which parameters are symbols, whose values are at a place."""
-        point = self.at([share] * len(self.parameters))
-        symbols = {p.key: p.symbol(point[p.key], longest=maxsize) for p in self.parameters}
-        return open_scopes(self._scenario, self._module, {**point, **symbols}).all()
-
-    def _whole(self, parameter: OpenParameter) -> Interval | tuple[Constant, ...]:
-        """Return all that a parameter may be, whatever the others are."""
-        choices = parameter.choices
-        if parameter.is_dependent:
-            return Interval(-inf, inf, parameter.is_whole)
-        low, high = parameter.limits(self.values(parameter)) if parameter.is_number else (0, 0)
-        is_listed = parameter.is_whole and choices == (*range(int(low), int(high) + 1),)
-        return choices if choices and not is_listed else Interval(low, high, parameter.is_whole)
-
-    def _shares(self, point: Point) -> tuple[float, ...]:
-        return tuple(p.share(point[p.key], self.values(p, point)) for p in self.parameters)
 
     def row(self, shares: Sequence[float]) -> Row:
         """Return the row for places between the first and the last value of each parameter."""

@@ -9,6 +9,7 @@ import math
 
 from osc2tx.backends.xosc.actions.arguments import Arguments
 from osc2tx.backends.xosc.actions.lateral.lanes import (
+    LANE_WIDTH,
     NO_ONE_SIDE,
     lane_change,
     lanes_aside,
@@ -58,7 +59,13 @@ def offset_change(leaf: Leaf, offset: float, pace: Pace) -> Change:
         reached = lane._replace(offset=lane.offset + offset_of(leaf.state))
         if is_oncoming(roads.map, lane) or is_oncoming(roads.map, reached):
             raise Inexpressible(NO_ONE_SIDE)
-    way = abs(offset - offset_of(leaf.state))
+    way, here = abs(offset - offset_of(leaf.state)), leaf.state.offset
+    if here is None or not here.is_known:
+        way = abs(offset) + 0.5 * LANE_WIDTH
+        leaf.doubt(
+            "how far it is from its place in the lane is only known during the run, and the XML"
+            f" states no length for a change of the offset: it takes so long for {way:.3g} m"
+        )
     shape, time = shift(leaf, way, pace)
     if pace.profile == "constant":
         leaf.doubt(
