@@ -90,7 +90,7 @@ def _signed(
         return ((is_clear(ctx, me, other, ahead=is_ahead is rule.startswith("less")),),)
     amount = c._replace(rule=rule, value=value)
     distance = relative_distance(ctx, amount, direction, system, freespace=freespace)
-    return in_order(ctx, c, distance, direction, is_ahead, rule, f"{value:g} m")
+    return in_order(ctx, c, distance, direction, is_ahead, rule)
 
 
 def in_order(
@@ -100,12 +100,11 @@ def in_order(
     direction: str,
     is_ahead: bool,
     rule: Rule,
-    amount: str,
 ) -> Groups:
     """Return the conditions for a measure without a sign, and for the side that it is on.
 
     The reference is ahead of the actor, or not, where what is measured is positive. The rule is
-    that of the measure, which compares with an amount.
+    that of the measure.
     """
     me, other = c.actor, c.reference()
     if direction == "longitudinal" and ctx.can("RelativeClearanceCondition", "1.2"):

@@ -96,7 +96,7 @@ def _between(ctx: Context, c: Comparison, *, is_ahead: bool, freespace: bool) ->
         relativeDistanceType="longitudinal" if newer else None,
     )
     headway = of_entity(behind, condition)
-    groups = in_order(ctx, c, headway, "longitudinal", is_ahead, rule, f"{value:g} s")
+    groups = in_order(ctx, c, headway, "longitudinal", is_ahead, rule)
     if rule.startswith("less") or c.is_edge or not groups[0][1:]:
         return groups
     # Who stands comes to no place: the time of the XML is undefined, and compares with nothing.
