@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
@@ -27,6 +28,7 @@ from osc2tx.cli.reporting import Exit, Reporter, count_of, found, report_options
 from osc2tx.cli.standard_input import is_standard_input, job_of_standard_input, stdin_filename
 from osc2tx.compilation.file_reports import apply_suppressions
 from osc2tx.config import ConfigFiles, GivenOptions
+from osc2tx.diagnostics.report import LEVELS
 from osc2tx_shared.cache import cache_folder
 from osc2tx_shared.text import StreamName, recorded
 
@@ -75,6 +77,8 @@ def check(
 
     If the map of a scenario is found, a run is prepared up to its first step.
 
+    The levels of scenarios are listed for named files, and counted for folders.
+
     Without PATH, `sources` of the settings file are used; `-` is standard input, whose fixed text
     goes to standard output.
     """
@@ -114,9 +118,7 @@ def check(
         bugs = [result.bug for result in results if result.bug]
         code, report = reporter.report(results, bugs, baselines=baselines)
         code = max(code, reporter.warn(baselines.outdated(whole)))
-        for result in results:
-            for entry in result.scenarios:
-                reporter.say(f"{result.job.name}: {entry.summary}")
+        _say_levels(results, reporter)
         reporter.say(f"checked {count_of(len(results), 'file')}: {found(report)}")
     code = max(code, outcome)
     if any(Path(path).is_dir() for path in paths):
@@ -145,6 +147,20 @@ def _checked(
             configs=configs,
             cache=cache,
         )
+
+
+def _say_levels(results: Sequence[FileResult], reporter: Reporter) -> None:
+    """Print the levels of the scenarios of named files, and how many in folders have which."""
+    numbers: Counter[str] = Counter()
+    for result in results:
+        if not result.job.is_asked:
+            numbers.update(entry.level for entry in result.scenarios)
+            continue
+        for entry in result.scenarios:
+            reporter.say(f"{result.job.name}: {entry.summary}")
+    if numbers:
+        levels = ", ".join(f"{numbers[level]} {level}" for level in LEVELS if numbers[level])
+        reporter.say(f"{count_of(numbers.total(), 'scenario')}: {levels}")
 
 
 def _write_baselines(

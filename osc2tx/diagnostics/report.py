@@ -12,6 +12,7 @@ from osc2tx.diagnostics.source import SourceFile
 from osc2tx.support.paths import real_path
 from osc2tx_shared.classes import dataclass, replace
 
+LEVELS = ("concrete", "logical", "abstract")  # of scenarios (§6.3)
 MOST_FILES_APART = 5  # with the same diagnostic; of more, it is shown once
 
 

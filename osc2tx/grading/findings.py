@@ -2,12 +2,16 @@
 
 A change in a base compiles all scenarios that inherit it, but most of them are played as before:
 they fix the changed value, or do not read it. So a finding is kept under a digest of all that the
-runs depend on: the module and the document that are played, the map, osc2tx itself.
+runs depend on: the module and the document that are played, the map, osc2tx itself. Comments count
+for nothing, and lines of the sources only name things in it, so it holds as well if they move.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+import ast
+import json
+import re
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import fields
 from typing import Any
 
@@ -29,6 +33,7 @@ def find(
     records: Records,
     document: XmlScenario,
     module: GeneratedModule,
+    files: Mapping[str, str],
     options: XmlOptions,
     measure: Callable[[], Finding],
 ) -> Finding:
@@ -38,37 +43,62 @@ def find(
         records: Findings of earlier builds.
         document: The document with its report.
         module: The module with the scenario.
+        files: The sources of the scenarios of the module, by their names.
         options: Those of the document.
         measure: Plays the document.
 
     Raises:
         NoEvidence: There is no finding.
     """
-    bounds = [e.bound for e in document.report.entries if e.grade is Grade.APPROXIMATED]
+    lines = list(dict.fromkeys(str(span) for _, span in sorted(document.origins.items())))
+    stated = [e for e in document.report.entries if e.grade is Grade.APPROXIMATED]
     place = records.place(
-        [document.name, module.python, module.source_map],
+        [document.name, _program(module.python), _lines_of_nodes(module, files, lines)],
         [document.xml, document.parameters],
-        {event: str(span) for event, span in sorted(document.origins.items())},
-        [[type(bound).__name__, str(bound)] for bound in bounds],
+        {event: lines.index(str(span)) for event, span in sorted(document.origins.items())},
+        [[each.is_open, type(each.bound).__name__, str(each.bound)] for each in stated],
         repr(replace(options, map_path=())),
         [each.is_file() and digest(each.read_bytes()) for each in document.map_places],
     )
     known = records.read(place)
     try:
         if known is not None:
-            return _restored(known)
-    except (ValueError, KeyError, TypeError, AttributeError):  # damaged: as missing
+            return _restored(known, lines)
+    except (ValueError, KeyError, IndexError, TypeError, AttributeError):  # damaged: as missing
         pass
     try:
         finding = measure()
     except NoEvidence as error:
         records.write(place, {"reason": str(error)})
         raise
-    records.write(place, _record(finding))
+    records.write(place, _record(finding, lines))
     return finding
 
 
-def _record(finding: Finding) -> dict[str, Any]:
+def _program(python: str) -> str:
+    """Return what a module does: its tree without docstrings."""
+    tree = ast.parse(python)
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef) and ast.get_docstring(
+            node
+        ):
+            del node.body[0]
+    return ast.dump(tree)
+
+
+def _lines_of_nodes(
+    module: GeneratedModule, files: Mapping[str, str], lines: Sequence[str]
+) -> list[list[int | None]]:
+    """Return the line of each node of the trees, as its number among some lines."""
+    numbers = {line: number for number, line in enumerate(lines)}
+    maps = json.loads(module.source_map)["scenarios"]
+    return [
+        [place and numbers.get(f"{files[name]}:{place[0]}") for place in each["nodes"]]
+        for name, each in maps.items()
+    ]
+
+
+def _record(finding: Finding, lines: Sequence[str]) -> dict[str, Any]:
     deviation, measured = finding.deviation, finding.measured
     return {
         "measured": [getattr(measured, name) for name in MEASURED],
@@ -78,15 +108,23 @@ def _record(finding: Finding) -> dict[str, Any]:
             actor: [getattr(each, name) for name in ACTOR]
             for actor, each in deviation.actors.items()
         },
-        "problems": list(deviation.problems),
+        "problems": [_without_lines(each, lines) for each in deviation.problems],
         "is_off_road": deviation.is_off_road,
         "is_at_fork": deviation.is_at_fork,
-        "starts": dict(finding.starts),
+        "starts": [finding.starts.get(line) for line in lines],
         "is_faithful": finding.is_faithful,
     }
 
 
-def _restored(record: Mapping[str, Any]) -> Finding:
+def _without_lines(sentence: str, lines: Sequence[str]) -> list[str | int]:
+    """Return the parts of a sentence, with numbers instead of the lines that it mentions."""
+    numbers = {line: number for number, line in enumerate(lines)}
+    longest_first = sorted(map(re.escape, lines), key=len, reverse=True)
+    parts = re.split(f"({'|'.join(longest_first)})", sentence) if lines else [sentence]
+    return [numbers.get(part, part) for part in parts]
+
+
+def _restored(record: Mapping[str, Any], lines: Sequence[str]) -> Finding:
     """Return a stored finding.
 
     Raises:
@@ -94,13 +132,18 @@ def _restored(record: Mapping[str, Any]) -> Finding:
     """
     if "reason" in record:
         raise NoEvidence(record["reason"])
+    problems = (
+        "".join(lines[part] if isinstance(part, int) else part for part in sentence)
+        for sentence in record["problems"]
+    )
     deviation = Deviation(
         record["late"],
         record["end"],
         {actor: ActorDeviation(*each) for actor, each in record["actors"].items()},
-        tuple(record["problems"]),
+        tuple(problems),
         record["is_off_road"],
         record["is_at_fork"],
     )
-    measured = Measured(*record["measured"])
-    return Finding(measured, deviation, record["starts"], record["is_faithful"])
+    pairs = zip(lines, record["starts"], strict=True)
+    starts = {line: at for line, at in pairs if at is not None}
+    return Finding(Measured(*record["measured"]), deviation, starts, record["is_faithful"])

@@ -107,8 +107,8 @@ def _graded(
         return Measuring(found, scenarios()[found.name], options, source.folder).run()
 
     try:
-        known = source.findings
-        finding = find(known, found, module, options, measure) if known else measure()
+        known, files = source.findings, _files(source.module)
+        finding = find(known, found, module, files, options, measure) if known else measure()
     except NoEvidence as error:
         return _unmeasured(found, source, sink, str(error))
     report, deviation = found.report, finding.deviation
@@ -131,6 +131,11 @@ def _graded(
     if what is BEYOND or (report.obstacles and source.options.target == "xosc"):
         _complain(sink, construct, span, what, finding)
     return _completed(found, source)
+
+
+def _files(module: ir.Module) -> dict[str, str]:
+    """Return the sources of the scenarios of a module, by their names."""
+    return {each.name: each.span.source.name for each in (*module.bases, *module.scenarios)}
 
 
 def unplayed(

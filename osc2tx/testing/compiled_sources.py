@@ -9,9 +9,11 @@ from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from osc2tx.building.baseline import Baselines
 from osc2tx.building.jobs import Job, find_jobs
 from osc2tx.building.plan import place_outputs
 from osc2tx.building.result_cache import ResultCache
+from osc2tx.building.severities import Severities
 from osc2tx.building.workers import compile_jobs, with_siblings
 from osc2tx.compilation.file_reports import apply_suppressions
 from osc2tx.config import ConfigFiles, GivenOptions
@@ -42,6 +44,7 @@ class CompiledSources:
         """
         self._with_xml = with_xml
         self.configs = ConfigFiles()
+        self._severities = Severities(self.configs)
         self._memory = ResultCache("build", self.configs, cache)
         self._results: dict[Path, FileResult] = {}
         self._folder: tempfile.TemporaryDirectory[str] | None = None
@@ -94,9 +97,13 @@ class CompiledSources:
         return self._results[place]
 
     def problems(self, path: Path) -> str:
-        """Return the errors of a file, as `osc2tx check` prints them; empty if there are none."""
+        """Return the errors of a file, as `osc2tx check` prints them; empty if there are none.
+
+        New warnings that settings make errors are among them: `osc2tx run` runs no such file.
+        """
         result = self.result(path)
-        shown = apply_suppressions([result]).shown
+        reported = apply_suppressions([result], self._severities).shown
+        shown = Baselines(self.configs).new_among(reported)
         errors = [report for report in shown if report.severity is Severity.ERROR]
         if result.source is None and not errors:
             return f"{path}: cannot be read"

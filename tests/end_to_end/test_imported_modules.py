@@ -271,7 +271,7 @@ scenario top:
 
 
 def test_actions_with_behavior_are_classes_of_their_file(tmp_path: Path) -> None:
-    """Also those that nothing in it invokes: bug 9 of issue 39. An action is no entry of a run."""
+    """Also those that nothing in it invokes, so no user has a copy. None begins a run."""
     write(tmp_path, a=INVOKING, actions=ACTIONS)
     text = module_of(tmp_path / "actions.osc")
     assert classes_in(text) == ["GainSpeed", "StopAndGo"]

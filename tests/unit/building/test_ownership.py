@@ -31,6 +31,29 @@ def test_what_was_edited_by_hand_is_kept_without_force(project: Project) -> None
     assert project.check() == []
 
 
+@pytest.mark.parametrize("speed", [30, 31])
+@pytest.mark.parametrize("is_known", [True, False], ids=["digests", "no digests"])
+def test_only_the_edited_module_is_called_edited(
+    project: Project, speed: int, is_known: bool
+) -> None:
+    """Its source map is as osc2tx wrote it, and stays with the module that it belongs to."""
+    project.drive("a.osc")
+    project.build()
+    module = project.out / "a.py"
+    module.write_text(module.read_text() + "# mine\n")
+    before = (project.out / "a.map.json").read_bytes()
+    project.drive("a.osc", speed=speed)
+    if not is_known:
+        (project.out / DIGESTS_NAME).unlink()
+    assert project.check() == ["a.py was edited by hand"]
+    result = project.build()
+    assert [(each.path.name, each.state.value) for each in result.changes] == [
+        ("a.py", "was edited by hand")
+    ]
+    assert result.written == ()
+    assert (project.out / "a.map.json").read_bytes() == before
+
+
 def test_an_edited_output_of_a_changed_source_is_kept_too(project: Project) -> None:
     project.drive("a.osc")
     project.build()

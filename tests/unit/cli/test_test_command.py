@@ -241,6 +241,24 @@ def test_a_value_that_no_scenario_fixes_is_said(project: Shell) -> None:
     assert meant in ended.stderr
 
 
+def test_a_warning_made_an_error_stops_test_and_run(project: Shell) -> None:
+    """One rule for both; a baseline that knows the warning lets both go on."""
+    fast = project.folder / "scenarios/rural/fast.osc"
+    text = fast.read_text(encoding="utf-8")
+    fast.write_text(text.replace("    do serial", "    spare: vehicle\n\n    do serial"))
+    strict = '[files."rural/**"]\nerrors = ["OSC433"]\n'
+    project.write("osc2tx.toml", f'baseline = "known.json"\n{SETTINGS}{strict}')
+    run = ("osc2tx", "run", "scenarios/rural/fast.osc")
+    test = ("osc2tx", "test", "-k", "fast", "-j", "1")
+    for command, code in ((run, 3), (test, 5)):
+        ended = start(project, *command)
+        assert ended.returncode == code
+        assert "error[OSC433]" in ended.stdout + ended.stderr
+    assert start(project, "osc2tx", "check", "--write-baseline").returncode == 0
+    for command in (run, test):
+        assert start(project, *command).returncode == 0
+
+
 # `osc2tx test`, interrupted when the first file is compiled.
 INTERRUPTED = """
 import sys

@@ -9,9 +9,12 @@ import pytest
 from osc2tx.building import build as module
 from osc2tx.building.build import BuildOptions
 from osc2tx.config import GivenOptions
+from osc2tx.grading.findings import _without_lines
 from osc2tx.grading.measuring import Finding, Measuring
+from osc2tx_shared.cache import Records
 from osc2tx_shared.map_files import SHIPPED
 from tests.unit.building.projects import contents, write
+from tests.unit.grading.test_grading import TEXT, brakes_harder, grade
 
 HEAD = "import osc.standard.all\n\nnamespace null use std, stdtypes\n\n"
 BASE = f"""{HEAD}scenario town:
@@ -100,6 +103,44 @@ def test_a_range_of_the_base_plays_what_it_leaves_open(sources: Sources) -> None
     sources.edit("base.osc", "[20kph..40kph]", "[20kph..45kph]")
     assert sources.build() == ["open"]
     sources.check_outputs()
+
+
+def test_comments_and_lines_that_move_play_nothing(sources: Sources) -> None:
+    sources.build()
+    sources.edit("base.osc", "scenario town", "# In the town\n\nscenario town")
+    sources.edit("base.osc", "[20kph..40kph]", "[20kph..45kph]")
+    assert sources.build() == ["open"]
+    sources.edit("fixed.osc", "    do ego", "    # Slowly\n    do ego")
+    assert sources.build() == []
+    sources.check_outputs()
+
+
+def test_a_deviation_is_at_the_line_of_now(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """What was found about a document that brakes too slowly names the lines where it is now."""
+    records = Records(tmp_path / "findings", "stamp")
+    first, compilation = grade(tmp_path, brakes_harder, findings=records)
+    (before,) = compilation.diagnostics
+
+    def unmeasured(self: Measuring) -> Finding:
+        raise AssertionError("it is known")
+
+    monkeypatch.setattr(Measuring, "run", unmeasured)
+    moved = TEXT.replace("scenario top", "# It brakes\n\nscenario top")
+    second, compilation = grade(tmp_path, brakes_harder, text=moved, findings=records)
+    (after,) = compilation.diagnostics
+    assert before.primary is not None and after.primary is not None
+    assert after.primary.line == before.primary.line + 2
+    assert first.report.measured == second.report.measured
+    assert [after.message, after.help] == [before.message, before.help]
+    assert after.notes == before.notes
+
+
+def test_sentences_keep_their_lines() -> None:
+    lines = ["a.osc:1", "b a.osc:1", "a.osc:12"]
+    sentence = "a.osc:12 starts before b a.osc:1, and a.osc:1 at 3 s"
+    parts = _without_lines(sentence, lines)
+    assert [each for each in parts if isinstance(each, int)] == [2, 1, 0]
+    assert "".join(lines[each] if isinstance(each, int) else each for each in parts) == sentence
 
 
 @pytest.mark.parametrize(

@@ -13,6 +13,7 @@ from osc2tx.backends.xosc.report import Grade, Metres
 from osc2tx.compilation.driver import Compilation
 from osc2tx.grading import Source, graded
 from osc2tx.options import CompileOptions, Target, XmlOptions
+from osc2tx_shared.cache import Records
 from osc2tx_shared.map_files import SHIPPED
 
 TEXT = """\
@@ -51,6 +52,7 @@ def grade(
     text: str = TEXT,
     target: Target = "xosc",
     bound: Metres | None = None,
+    findings: Records | None = None,
     **xml: bool,
 ) -> tuple[XmlScenario, Compilation]:
     """Return a document that was changed after it was written, graded; and its compilation."""
@@ -67,7 +69,7 @@ def grade(
     found = changed(found, xml=change(found.xml))
     assert compilation.ir is not None
     module = compilation.ir
-    source = Source(module, options, folder, lambda: emit(module))
+    source = Source(module, options, folder, lambda: emit(module), findings)
     (result,) = graded([found], source, compilation.sink)
     return result, compilation
 
