@@ -36,6 +36,8 @@ if TYPE_CHECKING:
     from osc2tx.building.answers import Answer
     from osc2tx.building.results import FileResult
 
+MOST_LISTED = 10  # scenarios that are in folders and not in named files
+
 
 @click.command()
 @click.argument("paths", metavar="[PATH]...", nargs=-1, type=click.Path())
@@ -77,7 +79,7 @@ def check(
 
     If the map of a scenario is found, a run is prepared up to its first step.
 
-    The levels of scenarios are listed for named files, and counted for folders.
+    The levels of scenarios are listed, those of more than ten in folders counted.
 
     Without PATH, `sources` of the settings file are used; `-` is standard input, whose fixed text
     goes to standard output.
@@ -150,17 +152,17 @@ def _checked(
 
 
 def _say_levels(results: Sequence[FileResult], reporter: Reporter) -> None:
-    """Print the levels of the scenarios of named files, and how many in folders have which."""
-    numbers: Counter[str] = Counter()
+    """Print the levels of scenarios; of many in folders, only how many have which."""
+    in_folders = [e for result in results if not result.job.is_asked for e in result.scenarios]
+    counted = in_folders if len(in_folders) > MOST_LISTED else []
     for result in results:
-        if not result.job.is_asked:
-            numbers.update(entry.level for entry in result.scenarios)
-            continue
-        for entry in result.scenarios:
-            reporter.say(f"{result.job.name}: {entry.summary}")
+        if result.job.is_asked or not counted:
+            for entry in result.scenarios:
+                reporter.say(f"{result.job.name}: {entry.summary}")
+    numbers = Counter(entry.level for entry in counted)
     if numbers:
         levels = ", ".join(f"{numbers[level]} {level}" for level in LEVELS if numbers[level])
-        reporter.say(f"{count_of(numbers.total(), 'scenario')}: {levels}")
+        reporter.say(f"{count_of(len(counted), 'scenario')}: {levels}")
 
 
 def _write_baselines(

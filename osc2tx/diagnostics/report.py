@@ -163,7 +163,11 @@ def _with_one_cause(
         if len(files) <= MOST_FILES_APART:
             yield diagnostic
         elif diagnostic is group[0]:
-            places = [f"{file_of(d)}:{d.primary.line}" for d in group[1:] if d.primary is not None]
+            others: dict[str, int] = {}
+            for each in group:
+                if each.primary is not None and file_of(each) != file_of(diagnostic):
+                    others.setdefault(file_of(each), each.primary.line)
+            places = [f"{file}:{line}" for file, line in others.items()]
             first = ", ".join(places[:MOST_FILES_APART])
             note = f"the same {len(group)} times in {len(files)} files: also {first}, …"
             yield replace(diagnostic, notes=(*diagnostic.notes, note))

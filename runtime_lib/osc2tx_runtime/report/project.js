@@ -84,6 +84,7 @@ function fillXml() {
   const { xml } = DATA;
   byId("xml-card").hidden = !xml.scenarios;
   byId("xml-note").textContent = `${xml.written} of ${counted(xml.scenarios, "scenario")} have XML`;
+  byId("xml").hidden = !xml.reasons.length;
   tableOf(byId("xml"), [["Scenarios", "number"], ["Why there is none"], ["Where"]],
     xml.reasons.map((each) => [[each.scenarios.length, "number"], [each.reason],
       [each.scenarios.slice(0, MOST_NAMED).join(", ") + (each.scenarios.length > MOST_NAMED ? ` and ${each.scenarios.length - MOST_NAMED} more` : "")]]));

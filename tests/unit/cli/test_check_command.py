@@ -15,16 +15,21 @@ def test_check_of_a_good_file(shell: Shell) -> None:
     assert ended == Ended(0, f"{level}checked 1 file: 0 errors, 0 warnings\n", "")
 
 
-def test_levels_are_listed_for_named_files_and_counted_for_folders(shell: Shell) -> None:
-    for name in ("a", "b"):
-        shell.drive(f"sub/{name}.osc")
+def test_levels_of_many_scenarios_in_folders_are_counted(shell: Shell) -> None:
+    for number in range(10):
+        shell.drive(f"sub/s{number}.osc")
+    assert shell("check", "sub").out.splitlines() == [
+        *(f"s{number}.osc: {LEVEL}" for number in range(10)),
+        "checked 10 files: 0 errors, 0 warnings",
+    ]
     place = "speed(9mps)\n        lane(1, at: start)\n        position(9m, at: start)\n"
     fixed = ON_A_MAP.format(map="highway").replace("1s)", f"1s) with:\n        {place}")
     shell.write("sub/c.osc", fixed)
-    counted = "3 scenarios: 1 concrete, 2 abstract\n"
-    assert shell("check", "sub").out == f"{counted}checked 3 files: 0 errors, 0 warnings\n"
-    mixed = shell("check", "sub/a.osc", "sub").out.splitlines()
-    assert mixed[:2] == [f"a.osc: {LEVEL}", "2 scenarios: 1 concrete, 1 abstract"]
+    counted = "11 scenarios: 1 concrete, 10 abstract\n"
+    assert shell("check", "sub").out == f"{counted}checked 11 files: 0 errors, 0 warnings\n"
+    shell.drive("sub/t.osc")
+    mixed = shell("check", "sub/t.osc", "sub").out.splitlines()
+    assert mixed[:2] == [f"t.osc: {LEVEL}", counted.strip()]
 
 
 def test_check_shows_errors_where_the_reader_is(shell: Shell) -> None:
@@ -32,7 +37,7 @@ def test_check_shows_errors_where_the_reader_is(shell: Shell) -> None:
     shell.drive("sub/b.osc")
     ended = shell("check", "sub")
     assert ended.code == 3
-    assert ended.out == "1 scenario: 1 abstract\nchecked 2 files: 1 error, 0 warnings\n"
+    assert ended.out == f"b.osc: {LEVEL}\nchecked 2 files: 1 error, 0 warnings\n"
     assert ended.err.startswith("sub/a.osc:2:9: error[OSC202]: ")
     assert ended.err.endswith("\n\n`osc2tx explain OSC202` explains the code.\n")
 

@@ -78,8 +78,8 @@ def test_what_is_recalled_reads_as_at_the_first_time(
     assert shell(*arguments) == first
     assert checked == []
     assert first.code == 3
-    levels = first.out if form == "text" else first.err
-    assert "4 scenarios: 1 concrete, 3 abstract\n" in levels  # of the files without errors
+    levels = (first.out if form == "text" else first.err).count(": scenario ")
+    assert levels == 4  # of the files without errors
 
 
 def test_a_recalled_report_does_not_depend_on_its_form(shell: Shell, checked: list[str]) -> None:
