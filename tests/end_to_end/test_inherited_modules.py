@@ -4,9 +4,13 @@ from pathlib import Path
 
 import pytest
 
+from benchmarks.repository import make_repository
 from osc2tx import ir
 from osc2tx.backends.py_trees.emitter import emit
+from osc2tx.building.jobs import find_jobs
+from osc2tx.compilation.driver import Memory
 from osc2tx.compilation.needed_modules import sibling_modules
+from osc2tx.config import ConfigFiles, GivenOptions
 from osc2tx.module_loading import scenarios_of_module
 from tests.end_to_end.importing_files import classes_in, compiled, trace_of, write
 
@@ -220,6 +224,25 @@ def test_a_base_in_another_file_is_imported(tmp_path: Path) -> None:
         expected = trace_of(scenarios["cruise"])
     with scenarios_of_module(compilation.module, sibling_modules(compilation)) as scenarios:
         assert trace_of(scenarios["cruise"]) == expected
+
+
+def test_a_repository_runs_as_whole_classes_do(tmp_path: Path) -> None:
+    """Two scenarios of each family: bases and moves of libraries, fixed and open values."""
+    make_repository(tmp_path, 16)
+    memory: Memory = {}
+    derived = 0
+    for job in find_jobs([tmp_path / "scenarios"], GivenOptions(), ConfigFiles()):
+        compilation = job.compilation(memory)
+        if compilation.ir is None or compilation.module is None:
+            continue
+        with scenarios_of_module(emit(ir.without_bases(compilation.ir))) as scenarios:
+            expected = {name: trace_of(each) for name, each in scenarios.items()}
+        siblings = sibling_modules(compilation)
+        with scenarios_of_module(compilation.module, siblings) as scenarios:
+            for name, each in scenarios.items():
+                assert trace_of(each) == expected[name], name
+        derived += sum(bool(each.base) for each in compilation.ir.scenarios)
+    assert derived >= 16
 
 
 def test_an_edit_of_the_base_changes_the_module_of_the_base(tmp_path: Path) -> None:

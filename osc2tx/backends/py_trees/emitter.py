@@ -275,7 +275,8 @@ def _docstring(module: ir.Module) -> tuple[PyDocLine, ...]:
         "Type": [each for each in own if isinstance(each, ir.UserType | ir.UserEnum)],
         "Modifier": [each for each in own if isinstance(each, ir.UserModifier)],
     }
-    word, named = next((kind, found) for kind, found in kinds.items() if found)
+    word = next((kind for kind, found in kinds.items() if found), "Scenario")
+    named = kinds[word]
     names = ", ".join(f"`{each.name}`" for each in named)
     about = ("", *module.comments) if module.comments else ()
     settings = (f"OpenSCENARIO DSL {module.standard}, dialect {module.dialect}", *_policies(module))
