@@ -190,7 +190,10 @@ def _sources(paths: Sequence[str]) -> Iterator[Path | None]:
         if path == INPUT:
             yield None
         elif Path(path).is_dir():
-            yield from sorted(Path(path).rglob(f"*{SUFFIX}"))
+            found = sorted(Path(path).rglob(f"*{SUFFIX}"))
+            if not found:
+                raise click.UsageError(f"there is no {SUFFIX} file in {path}")
+            yield from found
         else:
             yield Path(path)
 

@@ -14,6 +14,7 @@ from osc2tx.importing.cursor import Node
 from osc2tx.importing.dimensions import TIME, Quantity
 from osc2tx.importing.entity_conditions import EntityConditions, joined_by
 from osc2tx.importing.marks import Marks
+from osc2tx.importing.place_conditions import COMPARISONS
 from osc2tx.importing.places import Places
 from osc2tx.importing.signals import TrafficLights
 from osc2tx.importing.values import Values
@@ -211,6 +212,8 @@ class Conditions:
         if given is None:
             node.leave_out(f"there is no parameter {said}; it is never met here")
             return Condition("never", node)
+        if rule not in COMPARISONS:
+            raise Unresolved(f"rule has no value {rule!r}", node.place)
         holds = _holds(given, rule, value)
         if said in self._set and not holds:
             return self._of_mark(node, said, delay)

@@ -200,7 +200,7 @@ class Document:
                 files[folder] = None
             elif folder.is_dir():
                 files |= dict.fromkeys(sorted(folder.glob("*.xosc")))
-        return [path for path in files if self.reach.holds(path)]
+        return [path.resolve() for path in files if self.reach.holds(path)]
 
     @cached_property
     def resolved(self) -> Element:

@@ -24,6 +24,9 @@ from osc2tx.xosc.element import Element, Unresolved
 from osc2tx.xosc.player.distances import asked
 
 DIRECTIONS: Mapping[str, str] = {"longitudinal": "x", "lateral": "y", "vertical": "z"}
+WORDS: Mapping[str, Mapping[str, str]] = {"rule": COMPARISONS, "direction": DIRECTIONS}
+"""What attributes of conditions may say."""
+
 STANDING = 0.01  # m/s
 SYSTEMS = ("alongRoute", "relativeDistanceType", "coordinateSystem", "routingAlgorithm")
 CLEARANCE = "RelativeClearanceCondition"
@@ -53,7 +56,15 @@ class EntityConditions:
         self._sides = {pair: side for pair, side in sides.items() if side and pair in far}
 
     def expression(self, node: Node, said: str, a: str) -> str | None:
-        """Return the expression of a condition on an actor; `None`, with a finding, if none."""
+        """Return the expression of a condition on an actor; `None`, with a finding, if none.
+
+        Raises:
+            Unresolved: A word of it is none of those that the standard has there.
+        """
+        for name, words in WORDS.items():
+            said_here = node.element.get(name)
+            if said_here is not None and said_here not in words:
+                raise Unresolved(f"{name} has no value {said_here!r}", node.place)
         match node.tag:
             case "SpeedCondition":
                 part = _part(node, f"{a}.velocity.translational")
@@ -232,9 +243,11 @@ class EntityConditions:
             for end in ("from", "to")
         )
         aside = self._aside(said, lanes) if is_narrow else None
+        all_count = (node.text("oppositeLanes") or "false").lower() in ("true", "1")
         if aside is not None:
-            node.approximate("lanes beside the actor are as wide as the one in which it starts")
-        elif is_narrow or (node.text("oppositeLanes") or "false").lower() not in ("true", "1"):
+            also = "" if all_count else ", and those of oncoming traffic count"
+            node.approximate(f"lanes beside the actor are as wide as its first one{also}")
+        elif is_narrow or not all_count:
             node.approximate("a clearance is that of all lanes")
         texts = []
         for key, b in others.items():

@@ -121,7 +121,7 @@ class Routes(Reader):
             call = self._absolute(node, poses, stamps, offset, actor)
             if len(poses) < len(way):
                 call = call.replace(".replay_", ".follow_", 1)
-        node.use_all()
+        self._note(node, timed=timed)
         length = way[-1][0] if timed else None
         slots = BOTH if timed else frozenset((LATERAL,))
         yield Effect(Statement(f"{actor.name}{call}", length=length), actor.name, slots)
@@ -129,12 +129,30 @@ class Routes(Reader):
 
     def _since_its_start(self, node: Node, way: Way) -> Way:
         """Return the corners with times since the trajectory begins, not the run."""
-        kinds = (each.get("domainAbsoluteRelative") for each in node.element.walk())
-        begin = self._readings.begin
-        if begin == 0.0 or "absolute" not in kinds:
+        timing = next((each for each in node.element.walk() if each.tag == "Timing"), None)
+        if timing is None:
             return way
-        node.approximate(f"it is taken to begin after {begin:g} s, as far as times say it")
-        return [(time - begin, pose) for time, pose in way]
+        scale = self._values.nominal(node.other(timing), "scale", 1.0)
+        offset = self._values.nominal(node.other(timing), "offset")
+        begin = self._readings.begin
+        if begin > 0.0 and timing.get("domainAbsoluteRelative") == "absolute":
+            node.approximate(f"it is taken to begin after {begin:g} s, as far as times say it")
+            offset -= begin
+        return [(time * scale + offset, pose) for time, pose in way]
+
+    @staticmethod
+    def _note(node: Node, *, timed: bool) -> None:
+        """Note what of a trajectory has no part in where it leads, and take the rest."""
+        inner = [node.other(each) for each in node.element.walk()]
+        for trajectory in (each for each in inner if each.tag == "Trajectory"):
+            trajectory.idle("nothing refers to it by its name", "name")
+            if (trajectory.text("closed") or "false").lower() in ("true", "1"):
+                trajectory.approximate("a closed trajectory is followed once")
+            else:
+                trajectory.idle("it is not closed", "closed")
+        for vertex in (each for each in inner if each.tag == "Vertex" and not timed):
+            vertex.idle("times do not count without `Timing`", "time")
+        node.use_all()
 
     def _thinned(self, node: Node, way: Way, *, timed: bool) -> Way:
         """Return the corners of a trajectory; of a curve as many as it needs."""

@@ -250,8 +250,8 @@ class Values:
         if isinstance(node, Number):
             return Quantity(f"{short(node.value)}kph", 0.0)
         if isinstance(node, Name):
-            parameter = self.parameters[node.name]
-            if not parameter.is_hourly:
+            parameter = self.parameters.get(node.name)
+            if parameter is None or not parameter.is_hourly:
                 raise Untyped(node.name)
             parameter.is_used = True
             return Quantity(parameter.name, 0.0)

@@ -1,6 +1,7 @@
 """Nothing of a document is lost unseen: what changes in it changes the scenario or the report."""
 
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
@@ -21,6 +22,8 @@ from tests.importing.documents import (
     lane_change,
     speed_change,
 )
+from tests.importing.test_conditions import collision_time
+from tests.importing.test_trajectories import CURVE, TIMED, TIMELESS, beside, corners, follow
 
 EVENTS = event("One", speed_change("20"), at_time("1")) + event(
     "Two", lane_change(-1), after("One")
@@ -36,6 +39,10 @@ def _product(text: str) -> object:
         return error.reason
     report = found.report.to_json()
     return found.text, report
+
+
+def _product_of(root: ET.Element) -> object:
+    return _product(ET.tostring(root, encoding="unicode"))
 
 
 def silent(root: ET.Element, product: Callable[[], object]) -> list[str]:
@@ -65,6 +72,30 @@ def silent(root: ET.Element, product: Callable[[], object]) -> list[str]:
 def test_all_of_a_document_counts() -> None:
     root = ET.fromstring(document(EVENTS, parameters=WITH_PARAMETER, ego_speed="$v"))
     assert not silent(root, lambda: _product(ET.tostring(root, encoding="unicode")))
+
+
+def test_all_of_a_trajectory_counts() -> None:
+    """Of the first times and distances a lack is their default, 0."""
+    places = (beside("other", 0, 0), beside("other", 45, 0), beside("other", 75, 3.5))
+    for shape, timing in (
+        (corners(*places), TIMELESS),
+        (corners(*places, times=(3.0, 5.0, 6.0)), TIMED.format("absolute")),
+        (CURVE, TIMELESS),
+    ):
+        root = ET.fromstring(document(event("Follow", follow(shape, timing), at_time("3"))))
+        found = silent(root, partial(_product_of, root))
+        assert [each for each in found if not each.endswith(" left out")] == []
+
+
+@pytest.mark.parametrize("rule", ["zzz", "lessthan"])
+def test_words_that_the_standard_does_not_have_are_told_with_their_place(rule: str) -> None:
+    text = document(
+        event("Brake", speed_change("5"), collision_time('<EntityRef entityRef="ego"/>'))
+    )
+    found = imported(text.replace('rule="lessThan"', f'rule="{rule}"'))
+    (reason,) = [each for each in found.report.findings if "rule" in each.reason]
+    assert reason.grade == "left out" and reason.place is not None
+    assert f"rule has no value '{rule}'" == reason.reason
 
 
 CATALOGS = {

@@ -4,11 +4,12 @@ import json
 from pathlib import Path
 
 import pytest
+from click import UsageError
 from click.testing import CliRunner, Result
 
 from osc2tx.cli import cli
 from osc2tx.cli.reporting import Session
-from tests.importing.documents import after, at_time, document, event, speed_change
+from tests.importing.documents import CAR, after, at_time, document, event, speed_change
 
 PARAMETER = '<ParameterDeclaration name="Speed_kph" parameterType="double" value="72"/>'
 VALUES = """<OpenSCENARIO><FileHeader revMajor="1" revMinor="1" date="2024-01-01T00:00:00"
@@ -106,3 +107,29 @@ def test_an_edited_scenario_is_kept(tmp_path: Path) -> None:
     assert "exists with another text" in result.output
     assert command(*words, "--force").return_value == 0
     assert "# Mine." not in scenario.read_text(encoding="utf-8")
+
+
+def test_a_folder_without_documents_is_refused(tmp_path: Path) -> None:
+    result = command("import", tmp_path, "-o", tmp_path / "out")
+    assert isinstance(result.exception, UsageError)
+    assert "there is no .xosc file in" in str(result.exception)
+    assert not (tmp_path / "out").exists()
+
+
+def test_documents_share_the_library_of_a_catalog_that_they_name_differently(
+    tmp_path: Path,
+) -> None:
+    catalog = f"<OpenSCENARIO><Catalog name='cars'>{CAR}</Catalog></OpenSCENARIO>"
+    (tmp_path / "catalogs").mkdir()
+    (tmp_path / "more").mkdir()
+    (tmp_path / "catalogs" / "cars.xosc").write_text(catalog, encoding="utf-8")
+    reference = '<CatalogReference catalogName="cars" entryName="car"/>'
+    locations = "<CatalogLocations><VehicleCatalog><Directory path='{}'/></VehicleCatalog>"
+    for name, path in (("one", "catalogs"), ("more/two", "../more/../catalogs")):
+        text = document("").replace(CAR, reference)
+        text = text.replace("<CatalogLocations/>", f"{locations.format(path)}</CatalogLocations>")
+        (tmp_path / f"{name}.xosc").write_text(text, encoding="utf-8")
+    out = tmp_path / "out"
+    sources = (tmp_path / "one.xosc", tmp_path / "more" / "two.xosc")
+    command("import", *sources, "-o", out, "--catalog-path", tmp_path / "catalogs")
+    assert sorted(each.stem for each in out.glob("*.osc")) == ["cars", "one", "two"]

@@ -39,8 +39,10 @@ class Ways:
         way = trajectory_way(node, self._scene.bodies, self._scene.map, body.pose)
         timing = node.one(xml.TimeReference).find(xml.Timing)
         is_timed = timing is not None
-        if timing is not None and timing.domainAbsoluteRelative == "absolute":
-            way = [(time - self._scene.time, pose) for time, pose in way]
+        if timing is not None:
+            scale, offset = number(timing, "scale", 1.0), number(timing, "offset")
+            begin = self._scene.time if timing.domainAbsoluteRelative == "absolute" else 0.0
+            way = [(time * scale + offset - begin, pose) for time, pose in way]
         domains = (LATERAL, LONGITUDINAL) if is_timed else (LATERAL,)
         run = Running(body, domains, self._scene.time, None, way=way, is_timed=is_timed)
         run.points = lengths_of(way)
