@@ -19,6 +19,7 @@ from osc2tx_runtime.opendrive import LanePosition
 MILLIMETRES = 2e-3  # m: how near a point of the map has to be to the place that it stands for
 MOST_IN_CALL = 100
 """Points in a call; each of more has a name of its own."""
+ROUNDING = 1e-6  # m
 SPARSE = 0.05  # m: a corner that is nearer to the line between others is left out
 LAST = 0.5
 """m: length of the last chord of a curve."""
@@ -72,7 +73,8 @@ class Courses:
             place = self._ground.known(vertex.one(xml.Position))
             if not isinstance(place, LanePosition) or self._ground.map is None:
                 return []
-            if not 0.0 <= place.s <= self._ground.map.roads[place.road].length:
+            length = self._ground.map.roads[place.road].length
+            if not -ROUNDING <= place.s <= length + ROUNDING:
                 return []
             t = place.offset * self._ground.map.travel_direction(place.road, place.lane)
             at = literal(round(place.s, 6), LENGTH), literal(round(t, 6), LENGTH)
@@ -126,7 +128,8 @@ class Courses:
             place = road_map.locate(pose.x, pose.y, heading=pose.h)
             if place is None:
                 return []
-            place = place._replace(s=round(place.s, 3), offset=round(place.offset, 3))
+            end = math.floor(1e3 * road_map.roads[place.road].length) / 1e3
+            place = place._replace(s=min(round(place.s, 3), end), offset=round(place.offset, 3))
             there = road_map.pose(place)
             if math.dist(there[:2], pose[:2]) > MILLIMETRES:
                 return []

@@ -125,11 +125,10 @@ def test_documents_share_the_library_of_a_catalog_that_they_name_differently(
     (tmp_path / "catalogs" / "cars.xosc").write_text(catalog, encoding="utf-8")
     reference = '<CatalogReference catalogName="cars" entryName="car"/>'
     locations = "<CatalogLocations><VehicleCatalog><Directory path='{}'/></VehicleCatalog>"
-    for name, path in (("one", "catalogs"), ("more/two", "../more/../catalogs")):
+    for name, path in (("one", "catalogs"), ("two", "more/../catalogs")):
         text = document("").replace(CAR, reference)
         text = text.replace("<CatalogLocations/>", f"{locations.format(path)}</CatalogLocations>")
         (tmp_path / f"{name}.xosc").write_text(text, encoding="utf-8")
     out = tmp_path / "out"
-    sources = (tmp_path / "one.xosc", tmp_path / "more" / "two.xosc")
-    command("import", *sources, "-o", out, "--catalog-path", tmp_path / "catalogs")
+    command("import", tmp_path, "-o", out)
     assert sorted(each.stem for each in out.glob("*.osc")) == ["cars", "one", "two"]
