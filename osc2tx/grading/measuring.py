@@ -124,16 +124,21 @@ class Measuring:
 
     def _judged(self, values: Values) -> Finding:
         """Run scenario and document with values of open parameters, at fine steps if necessary."""
-        found = self._at(COARSE, values)
+        coarse = self._at(COARSE, values)
         suspect = EXACT if self._is_doubted else SUSPECT
-        if not self._is_bounded or (found.is_faithful and found.deviation.place < suspect):
-            return found
-        found = self._at(FINE, values)
-        if found.is_faithful and not self._is_doubted:
-            return found
+        if not self._is_bounded or (coarse.is_faithful and coarse.deviation.place < suspect):
+            return coarse
+        fine = self._at(FINE, values)
+        if fine.is_faithful and (not self._is_doubted or fine.deviation.place < EXACT):
+            return fine
+        shrinking = (coarse.deviation.place - fine.deviation.place) / (COARSE - FINE)
+        allowed = EXACT + self._stated
+        if fine.deviation.place - shrinking * FINE >= allowed:
+            return replace(fine, is_faithful=fine.is_faithful and not self._is_doubted)
         finest = self._at(FINEST, values)
-        shrinks = 2.0 * finest.deviation.place - found.deviation.place < EXACT + self._stated
-        is_step = shrinks and not finest.deviation.problems and not finest.deviation.is_at_fork
+        left = 2.0 * finest.deviation.place - fine.deviation.place
+        is_step = left < allowed and not finest.deviation.problems
+        is_step = is_step and not finest.deviation.is_at_fork
         return replace(finest, is_faithful=finest.is_faithful or is_step)
 
     def _at(self, dt: float, values: Values) -> Finding:
