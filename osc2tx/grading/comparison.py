@@ -168,7 +168,8 @@ def compare(
     }
     deviating = {actor: each.since for actor, each in actors.items() if each.since < math.inf}
     is_off_road, is_at_fork = (
-        not problems
+        bool(deviating)
+        and not problems
         and all(when.get(actor, math.inf) <= since + chain for actor, since in deviating.items())
         for when in (found.ends, found.forks)
     )
