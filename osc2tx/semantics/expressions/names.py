@@ -157,7 +157,14 @@ def _infer_unknown(
             labels=declared_here(types[0]) if types[0].origin == "user" else (),
         )
         return ERROR
-    r.report("OSC201", node.span, f"`{name}` is not defined", help=_name_meant(r, name, env))
+    base = env.owner.base if isinstance(env.owner, ScenarioSymbol) else None
+    r.report(
+        "OSC201",
+        node.span,
+        f"`{name}` is not defined",
+        help=_name_meant(r, name, env),
+        labels=declared_here(base, f"no `{name}` is inherited from here") if base else (),
+    )
     return ERROR
 
 
@@ -165,7 +172,9 @@ def _name_meant(r: Resolution, name: ast.Name, env: Environment) -> Help:
     """Return the help for a name that is not defined."""
     if name.text in NOTHING:
         return "there is no empty value; omit arguments and members without a value"
-    if found := plain_word(name.span, NAMES) or _field_elsewhere(r, name):
+    inherits = isinstance(env.owner, ScenarioSymbol) and env.owner.base is not None
+    elsewhere = None if inherits else _field_elsewhere(r, name)
+    if found := plain_word(name.span, NAMES) or elsewhere:
         return found
     meant = nearest(name.text, visible_names(r, env))
     if meant is None:

@@ -76,6 +76,7 @@ def test_one_cause_in_many_files_is_shown_once(shell: Shell) -> None:
     (code,) = {line.split("[")[1][:6] for line in ended.err.splitlines() if "error[" in line}
     assert ended.err.count(f"error[{code}]") == 1
     assert "9 times in 9 files: also in/s1.osc:4, in/s2.osc:4" in ended.err
+    assert "no `v_ego` is inherited from here" in ended.err
     assert "9 errors" in ended.out
     assert shell("check", "in", "--output-format", "github").out.count("::error") == 1
     whole = document(shell("check", "in", "--output-format", "json").out)
