@@ -45,12 +45,9 @@ LATERAL_SPEED = "a lane change takes over the lateral speed of the one that it e
 WITHOUT_SECOND = {  # what is imported has no document again, by names of scenarios
     "assign_orientation": TRAJECTORY,
     "follow_leader": "how a gap is closed is a matter of the tool",
-    "lateral_modifiers": "a lane change that is stopped returns to its lane",
     "move_drive_walk": TRAJECTORY,
     "orientation_modifiers": TRAJECTORY,
-    "overlaps": LATERAL_SPEED,
     "overriding": "that an event has come before is no comparison with a constant",
-    "relative_modifiers": RELATIVE,
     "semantic_validation": "the speed that is held is only known during the run",
     "speed_modifier": RELATIVE,
 }
