@@ -15,6 +15,7 @@ from osc2tx.xosc.element import Element, Unresolved
 from osc2tx.xosc.player import Evaluator, Reading, Unplayable
 from osc2tx.xosc.profiles import ToolProfile
 from osc2tx_runtime import RunSettings, Scenario, ScenarioError, run_scenario
+from osc2tx_runtime.domain.placing.entries import ENTER
 from osc2tx_runtime.language.trace import DECIMALS
 from osc2tx_runtime.opendrive import RoadMap, read_map
 from osc2tx_runtime.world.state import ActorState
@@ -103,7 +104,10 @@ def run_in_world(scenario: type[Scenario], settings: RunSettings) -> WorldRun:
         match line["kind"]:
             case "action":
                 acted = line["t"]
-                if line["status"] == "start":
+                enters = (
+                    line["name"] == f"{line['actor']} {ENTER}"
+                )  # at the line of its first action
+                if line["status"] == "start" and not enters:
                     starts.setdefault(line["source"], line["t"])
             case "choice":
                 choices[line["name"]] = line["chosen"]

@@ -41,7 +41,7 @@ class Condition:
     """
 
     kind: str
-    node: Node
+    node: Node = field(compare=False)
     text: str = ""
     edge: str = "none"
     delay: Quantity | None = None

@@ -39,6 +39,7 @@ class EntityConditions:
     def __init__(self, values: Values, places: Places, actors: Mapping[str, Actor]) -> None:
         self._values, self._places, self._actors = values, places, actors
         self._at_places = PlaceConditions(values, places, actors)
+        self._cleared: dict[tuple[str, str], int] = {}
         self._sides: dict[tuple[str, str], int] = {}
 
     def begin_group(self, group: Sequence[Node]) -> None:
@@ -46,6 +47,7 @@ class EntityConditions:
         found = [(_pair(each), self._places.resolved(each).below(Element)) for each in group]
         nodes = [(pair, node) for pair, below in found for node in below if pair is not None]
         sides = {pair: _side_of(node) for pair, node in nodes if node.tag == CLEARANCE}
+        self._cleared = {pair: side for pair, side in sides.items() if side}
         far = {
             pair
             for pair, node in nodes
@@ -53,7 +55,7 @@ class EntityConditions:
             and asked(node)[0] == "longitudinal"
             and node.said("rule").startswith("greater")
         }
-        self._sides = {pair: side for pair, side in sides.items() if side and pair in far}
+        self._sides = {pair: side for pair, side in self._cleared.items() if pair in far}
 
     def expression(self, node: Node, said: str, a: str) -> str | None:
         """Return the expression of a condition on an actor; `None`, with a finding, if none.
@@ -150,7 +152,8 @@ class EntityConditions:
             node.approximate(f"distances in the system of a {system} are those of the road")
         from_, to = a, b
         told = self._sides.get((said, b_said)) if kind == "longitudinal" else None
-        sign = told or self._side(said, b_said, kind)
+        cleared = self._cleared.get((said, b_said)) if kind == "longitudinal" else None
+        sign = cleared or self._side(said, b_said, kind)
         if kind == "longitudinal" and sign is not None and sign < 0:
             from_, to = b, a  # the one behind asks, so the distance is positive
         measure = f"{from_}.{method}({to}, {kind}{mode})"

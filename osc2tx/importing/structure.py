@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from functools import cached_property
-from itertools import combinations
+from itertools import combinations, takewhile
 
 from osc2tx.importing.acts import blocks_of, without_own_start
 from osc2tx.importing.cast import Actor
@@ -57,8 +57,11 @@ class Structure:
     # --- who follows whom -------------------------------------------------------------------------
 
     def _order(self, step: Step, scope: Collection[Step]) -> None:
-        """Put a step behind the one whose end starts it."""
+        """Put a step behind the one whose end starts it, or that it replaces at once."""
         found = [each for each in self._ends_in(step.trigger) if each is not step]
+        if not found:
+            earlier = takewhile(lambda each: each is not step, scope)
+            found = [each for each in earlier if _replaces_at_once(step, each)][-1:]
         if len(found) == 1 and found[0] in scope and not self._leads_to(step, found[0]):
             self._predecessor[step] = found[0]
             found[0].successors.append(step)
@@ -165,6 +168,8 @@ class Structure:
     def _waits_of(self, step: Step) -> list[Statement]:
         act, event = step.triggers
         behind = self._predecessor.get(step)
+        if behind is not None and _replaces_at_once(step, behind):
+            return []
         if behind is not None and not event.is_immediate:
             return self.waits(event, behind)
         return self.waits(act, behind) + self.waits(event, behind)
@@ -278,6 +283,18 @@ class Structure:
         whole.label = block.label if block.label in self._referred_labels else ""
         whole.length = None
         return whole
+
+
+def _replaces_at_once(later: Step, earlier: Step) -> bool:
+    """Whether a step takes over the motion from an earlier one without duration, on one trigger."""
+    if isinstance(later, Block) or isinstance(earlier, Block) or later.act != earlier.act:
+        return False
+    return (
+        bool(later.slots & earlier.slots)
+        and all(each.statement.length == 0.0 for each in earlier.effects)
+        and not later.trigger.is_immediate
+        and later.trigger.groups == earlier.trigger.groups
+    )
 
 
 def _below(step: Step) -> Iterator[Step]:

@@ -41,14 +41,15 @@ def test_a_scenario_comes_back(path: Path, tmp_path: Path) -> None:
 
 TRAJECTORY = "a walker begins on a trajectory in time, for which `Init` has no form"
 RELATIVE = "how fast a relative speed is taken up is one rate in XML, two in the world"
-LATERAL_SPEED = "a lane change takes over the lateral speed of the one that it ends"
+HELD = "the speed that is held is only known during the run"
 WITHOUT_SECOND = {  # what is imported has no document again, by names of scenarios
     "assign_orientation": TRAJECTORY,
+    "cut_in_and_evade": HELD,
     "follow_leader": "how a gap is closed is a matter of the tool",
     "move_drive_walk": TRAJECTORY,
     "orientation_modifiers": TRAJECTORY,
     "overriding": "that an event has come before is no comparison with a constant",
-    "semantic_validation": "the speed that is held is only known during the run",
+    "semantic_validation": HELD,
     "speed_modifier": RELATIVE,
 }
 STEP, LATE = 0.05, 6  # s; steps: events follow each other one step later, here up to six

@@ -36,6 +36,9 @@ if TYPE_CHECKING:
     from osc2tx_runtime.language.actions.base_action import BaseAction
     from osc2tx_runtime.opendrive import LanePosition, Pose
 
+ENTER = "enter"
+"""Name of the motion of an actor that enters, in traces; its line is that of the first action."""
+
 
 @dataclass(frozen=True, slots=True)
 class WayIn:
@@ -113,7 +116,7 @@ class Enter(Leaf):
         super().__init__(f"{actor.id} enters")
         self.actor = actor
         self.source = source
-        self.action_name = f"{actor.id} enter"
+        self.action_name = f"{actor.id} {ENTER}"
         self._changes = False
 
     @property
@@ -137,14 +140,14 @@ class Enter(Leaf):
             self._changes = True
             duration = (way.changed - way.changes) * context.dt
             change = SpeedChange(way.target, "constant", duration=duration)
-            context.leave(self.actor.id, LONGITUDINAL, "enter", change)
+            context.leave(self.actor.id, LONGITUDINAL, ENTER, change)
         return RUNNING
 
     def terminate(self, new_status: Status) -> None:
         """Release the actor."""
         context = self.context
         if self._way() is not None:
-            context.leave(self.actor.id, LONGITUDINAL, "enter", None)
+            context.leave(self.actor.id, LONGITUDINAL, ENTER, None)
             if self.actor.id not in context.settings.destination:
                 context.world.set_route(self.actor.id, None)
         context.trace.action("end", self, None if new_status is SUCCESS else "stopped")
