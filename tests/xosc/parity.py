@@ -16,7 +16,7 @@ from types import MappingProxyType
 
 from osc2tx.backends.py_trees.emitter import GeneratedModule, emit
 from osc2tx.backends.xosc import XmlScenario
-from osc2tx.backends.xosc.report import Grade, Metres
+from osc2tx.backends.xosc.report import Grade, Metres, rounded_up
 from osc2tx.grading import comparison
 from osc2tx.grading.comparison import Deviation, Recording
 from osc2tx.grading.measuring import PACE
@@ -224,7 +224,12 @@ def bound_of(document: XmlScenario) -> float | None:
         return sum(stated)
     if report.measured is None or report.measured.events:
         return None
-    return sum(stated) + report.measured.place
+    return sum(stated) + rounded_up(report.measured.place)
+
+
+def is_stated(document: XmlScenario) -> bool:
+    """Whether all approximations of a document state metres, whatever a run has shown."""
+    return all(isinstance(each.bound, Metres) for each in document.report.approximations)
 
 
 def is_measured(document: XmlScenario) -> bool:
@@ -239,9 +244,8 @@ def check(given: Given, document: XmlScenario, *, is_lazy: bool = False) -> None
     report states. Events may wait for places: they may be off by the time for that way at `PACE`,
     and by any time where only a run has shown how far off the places are.
     """
-    allowed, bounds = bound_of(document), document.report.approximations
+    allowed = bound_of(document)
     assert allowed is not None, "it says how far it is off"
-    is_stated = all(isinstance(each.bound, Metres) for each in bounds)
-    patience = allowed / PACE if is_stated else inf
+    patience = allowed / PACE if is_stated(document) else inf
     found = difference(given, document, is_lazy=is_lazy, patience=patience)
     assert not found.beyond(NEAR + allowed), found
