@@ -11,7 +11,7 @@ from osc2tx_runtime import RunSettings
 from osc2tx_shared.map_files import SHIPPED
 from tests.corpus.report import INVALID, OPTIONS, manifest, roots_of
 from tests.unit.backends.xosc.documents import compiled
-from tests.xosc.parity import FINE, Given, check, is_measured, played, scenarios
+from tests.xosc.parity import FINE, Given, check, is_stated, played, scenarios
 
 MAPS = ("carla-2020", "esmini")
 FAILS = "emit fail"
@@ -43,7 +43,7 @@ def test_documents_are_like_the_world(test_data: Path) -> None:
             if document.xml is None:
                 continue
             written += 1
-            if not is_measured(document):
+            if not is_stated(document):
                 played(document.xml, 0.1, source.maps, most=10.0)
             elif all(entry.construct != FAILS for entry in document.report.entries):
                 check(source, document)

@@ -14,7 +14,6 @@ TYPICAL = 4
 """The same, for the median of the edits."""
 
 LOUD = {
-    "statement capabilities/C16_automatic_lights": (400, "XML cannot say it: the document goes"),
     "statement follow_leader": (150, "played, the document is 0.3 m off: it goes"),
 }
 """Edits that change more: how much, and why."""
