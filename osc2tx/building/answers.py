@@ -16,7 +16,8 @@ from pathlib import Path
 
 from osc2tx.building.fingerprint import STARTED, tool_stamp
 from osc2tx.support.paths import SETTINGS_FILES
-from osc2tx_shared.cache import cache_folder, digest, forget_the_oldest, read_own, write_own
+from osc2tx.support.records import digest
+from osc2tx_shared.cache import cache_folder, forget_the_oldest, read_own, write_own
 from osc2tx_shared.text import OutputError, StreamName, explain, is_watched, replay
 
 FORMAT = 1

@@ -12,8 +12,9 @@ from importlib.util import find_spec
 from pathlib import Path
 
 from osc2tx.resources import resource_dir
+from osc2tx.support.records import digest
 from osc2tx.version import __version__
-from osc2tx_shared.cache import digest, read_own, write_own
+from osc2tx_shared.cache import read_own, write_own
 
 _PACKAGE = Path(__file__).resolve().parent.parent
 _KINDS = (".py", ".osc", ".json", ".toml", ".j2", ".xodr")

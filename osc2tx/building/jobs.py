@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from osc2tx.compilation.driver import Compilation, Memory
     from osc2tx.config import Config, ConfigFiles, GivenOptions
     from osc2tx.options import CompileOptions
-    from osc2tx_shared.cache import Records
+    from osc2tx.support.records import Records
 
 RunTexts: TypeAlias = tuple[tuple[str, tuple[str, ...]], ...]
 """Options of runs as the settings file states them, by name."""

@@ -9,7 +9,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import IO
 
-from osc2tx_shared.cache import cache_folder, digest
+from osc2tx.support.records import digest
+from osc2tx_shared.cache import cache_folder
 
 if sys.platform == "win32":
     import msvcrt

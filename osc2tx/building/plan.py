@@ -24,7 +24,7 @@ from osc2tx.support.paths import (
     module_of,
     source_map_of,
 )
-from osc2tx_shared.cache import digest
+from osc2tx.support.records import digest
 from osc2tx_shared.classes import dataclass
 
 

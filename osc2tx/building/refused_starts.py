@@ -21,7 +21,7 @@ from osc2tx.diagnostics import CODES, Severity
 from osc2tx.ir.behaviors import Invoke, InvokeScenario
 from osc2tx.ir.verify import walk_behaviors
 from osc2tx.support.paths import real_path
-from osc2tx_shared.cache import digest
+from osc2tx.support.records import digest
 from osc2tx_shared.classes import replace
 from osc2tx_shared.map_files import SHIPPED, map_places, places_in_project
 

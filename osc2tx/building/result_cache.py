@@ -37,14 +37,8 @@ from osc2tx.compilation.file_reports import LossEntry
 from osc2tx.compilation.roots import innermost
 from osc2tx.config import ConfigFiles
 from osc2tx.diagnostics import SourceFile
-from osc2tx_shared.cache import (
-    Records,
-    cache_folder,
-    digest,
-    forget_the_oldest,
-    read_own,
-    write_own,
-)
+from osc2tx.support.records import Records, digest
+from osc2tx_shared.cache import cache_folder, forget_the_oldest, read_own, write_own
 from osc2tx_shared.classes import replace
 
 if TYPE_CHECKING:

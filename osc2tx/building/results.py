@@ -13,7 +13,7 @@ from osc2tx.building.severities import Severities
 from osc2tx.compilation.file_reports import LossEntry
 from osc2tx.diagnostics import Diagnostic, SourceFile, Span
 from osc2tx.diagnostics.report import ScenarioEntry
-from osc2tx_shared.cache import digest
+from osc2tx.support.records import digest
 from osc2tx_shared.classes import dataclass, replace
 
 if TYPE_CHECKING:
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from osc2tx.compilation.uses import UsedFile
     from osc2tx.config import ConfigFiles
     from osc2tx.options import CompileOptions
-    from osc2tx_shared.cache import Records
+    from osc2tx.support.records import Records
 
 SUFFIX = ".osc"
 GRADING = "OSC518"  # code of errors about documents that were played

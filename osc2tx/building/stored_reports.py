@@ -9,7 +9,7 @@ from typing import Any
 from osc2tx.diagnostics import Diagnostic, Label, Severity, SourceFile, Span
 from osc2tx.diagnostics.fixes import Edit, Fix
 from osc2tx.diagnostics.report import ScenarioEntry
-from osc2tx_shared.cache import digest
+from osc2tx.support.records import digest
 
 
 class ReportWriter:

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
     from osc2tx.compilation.driver import Memory
     from osc2tx.config import ConfigFiles
-    from osc2tx_shared.cache import Records
+    from osc2tx.support.records import Records
 
 FEWEST_FILES = 8  # for a second process: starting one takes as long as compiling a few files
 

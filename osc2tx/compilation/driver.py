@@ -43,8 +43,8 @@ if TYPE_CHECKING:
     from osc2tx.backends.xosc.emitter import XmlScenario
     from osc2tx.ir import Module
     from osc2tx.semantics import SemanticModel
+    from osc2tx.support.records import Records
     from osc2tx.syntax.ast import File
-    from osc2tx_shared.cache import Records
 
 
 __all__ = ["Compilation", "Memory", "Output"]

@@ -22,7 +22,7 @@ from osc2tx.grading.comparison import ActorDeviation, Deviation
 from osc2tx.grading.measuring import Finding
 from osc2tx.grading.runs import NoEvidence
 from osc2tx.options import XmlOptions
-from osc2tx_shared.cache import Records, digest
+from osc2tx.support.records import Records, digest
 from osc2tx_shared.classes import replace
 
 MEASURED = tuple(each.name for each in fields(Measured))

@@ -19,9 +19,9 @@ from osc2tx.grading.measuring import Finding, Measuring
 from osc2tx.grading.runs import NoEvidence
 from osc2tx.module_loading import scenarios_of_module
 from osc2tx.options import CompileOptions
+from osc2tx.support.records import Records
 from osc2tx.xosc import read
 from osc2tx_runtime import Scenario, ScenarioError
-from osc2tx_shared.cache import Records
 from osc2tx_shared.classes import dataclass, replace
 
 UNLIKE = "the played document deviates from the scenario"

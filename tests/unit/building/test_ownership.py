@@ -9,7 +9,7 @@ from osc2tx.building.ownership import stated_source
 from osc2tx.building.version_control import committed_objects
 from osc2tx.building.written_digests import DIGESTS_NAME, Written, read_digests, render_digests
 from osc2tx.config import GivenOptions
-from osc2tx_shared.cache import digest
+from osc2tx.support.records import digest
 from tests.unit.building.projects import Project, contents, listing, write
 
 # --- edited, foreign, orphaned ---

@@ -11,7 +11,7 @@ from osc2tx.building.build import BuildOptions
 from osc2tx.config import GivenOptions
 from osc2tx.grading.findings import _without_lines
 from osc2tx.grading.measuring import Finding, Measuring
-from osc2tx_shared.cache import Records
+from osc2tx.support.records import Records
 from osc2tx_shared.map_files import SHIPPED
 from tests.unit.building.projects import contents, write
 from tests.unit.grading.test_grading import TEXT, brakes_harder, grade

@@ -13,7 +13,7 @@ from osc2tx.backends.xosc.report import Grade, Metres
 from osc2tx.compilation.driver import Compilation
 from osc2tx.grading import Source, graded
 from osc2tx.options import CompileOptions, Target, XmlOptions
-from osc2tx_shared.cache import Records
+from osc2tx.support.records import Records
 from osc2tx_shared.map_files import SHIPPED
 
 TEXT = """\

@@ -1,4 +1,4 @@
-"""Records in the cache, each under a digest of all that it depends on."""
+"""Digests, and records in the cache, each under a digest of all that it depends on."""
 
 from __future__ import annotations
 
@@ -7,23 +7,27 @@ import json
 from pathlib import Path
 from typing import Any
 
-from osc2tx_shared.cache.own_files import forget_the_oldest, read_own, write_own
-from osc2tx_shared.classes import dataclass
+from osc2tx_shared.cache import forget_the_oldest, read_own, write_own
 
 MOST_FILES = 128  # in each of the 256 folders
 
 
-@dataclass(frozen=True, slots=True)
+def digest(data: bytes) -> str:
+    """Return the digest of a text: half of SHA-256."""
+    return hashlib.sha256(data).hexdigest()[:32]
+
+
 class Records:
-    """A folder of records, as JSON.
+    """A folder of records, as JSON."""
 
-    Attributes:
-        folder: The folder.
-        stamp: Identifies the program on which records depend as well.
-    """
+    def __init__(self, folder: Path, stamp: str) -> None:
+        """Take the folder.
 
-    folder: Path
-    stamp: str
+        Args:
+            folder: The folder.
+            stamp: Identifies the program on which records depend as well.
+        """
+        self._folder, self._stamp = folder, stamp
 
     def place(self, *parts: object) -> Path:
         """Return the file of a record.
@@ -31,8 +35,8 @@ class Records:
         Args:
             parts: All that it depends on, besides the program.
         """
-        name = digest(json.dumps([self.stamp, *parts]).encode())
-        return self.folder / name[:2] / name[2:]
+        name = digest(json.dumps([self._stamp, *parts]).encode())
+        return self._folder / name[:2] / name[2:]
 
     def read(self, place: Path) -> dict[str, Any] | None:
         """Return a record; `None` if there is none, or a damaged one."""
@@ -46,8 +50,3 @@ class Records:
         """Store a record; not being able to is no problem."""
         if write_own(place, json.dumps(record).encode()):
             forget_the_oldest(place.parent, MOST_FILES)
-
-
-def digest(data: bytes) -> str:
-    """Return the digest of a text: half of SHA-256."""
-    return hashlib.sha256(data).hexdigest()[:32]
