@@ -272,8 +272,9 @@ class LossReport:
         If nothing does, whatever is open may be the cause. Return whether there is a cause.
         """
         open_ = [each for each in self.entries if each.is_open]
-        causes = [] if deviates_at is None else open_
-        causes = [each for each in causes if deviates_at and deviates_at.holds(each.span)] or causes
+        causes: list[Entry] = []
+        if deviates_at is not None:
+            causes = [each for each in open_ if deviates_at.holds(each.span)] or open_
         for each in open_:
             same = self._entries[each.span][each.construct]
             same.remove(each)

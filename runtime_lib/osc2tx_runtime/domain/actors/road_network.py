@@ -91,7 +91,7 @@ class RoadNetwork:
         """The point on the axis of the driving lane under it.
 
         Raises:
-            ScenarioError: There is not a driving lane at the point.
+            ScenarioError: There is no driving lane at the point.
         """
         on = self._map.locate(x, y, z, max_distance=1e-3)
         if on is None:
