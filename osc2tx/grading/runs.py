@@ -182,6 +182,7 @@ def reading_of(tool: ToolProfile, *, is_lazy: bool = False) -> Reading:
         counts_from_looking=not tool.has_delays,
         carries_acceleration=tool.carries_acceleration,
         counts_along_roads=tool.counts_along_roads,
+        commands_speeds=tool.commands_speeds,
         guesses_at_forks=tool.guesses_at_forks,
     )
 

@@ -36,6 +36,8 @@ class ToolProfile:
             standard it begins without any.
         counts_along_roads: A position by lanes from an actor counts `dsLane` along the road; in the
             standard it is along the lane, which is shorter or longer in a bend.
+        commands_speeds: A speed without a direction is the commanded one, along the entity; one
+            with `longitudinal` is a part of its motion, to which lateral motion contributes.
         guesses_at_forks: An entity that changes lanes, or drives against the traffic, where its
             lane forks may take any of the roads.
         ego_property: Value of the property `type` by which it knows the ego vehicle; empty if it
@@ -67,6 +69,7 @@ class ToolProfile:
     has_booleans: bool = True
     carries_acceleration: bool = False
     counts_along_roads: bool = False
+    commands_speeds: bool = False
     guesses_at_forks: bool = False
     ego_property: str = ""
     person_model: str = ""
@@ -158,6 +161,7 @@ PROFILES: Mapping[XmlProfile, ToolProfile] = {
         deviates={},
         carries_acceleration=True,
         counts_along_roads=True,
+        commands_speeds=True,
         guesses_at_forks=True,
         is_lazy=True,
         needs_lane_range=True,

@@ -141,6 +141,14 @@ def test_laws_of_its_own(text: str, tmp_path: Path) -> None:
     assert compare(*both(given, name, FINE, tmp_path), FINE).place < 0.1
 
 
+def test_a_speed_does_not_include_lateral_motion(tmp_path: Path) -> None:
+    path = tmp_path / "it.osc"
+    path.write_text(esmini_laws.PULLS_OUT_FROM_STANDSTILL, encoding="utf-8")
+    difference = compare(*both(Given(path), "pulls_out", FINE, tmp_path), FINE)
+    assert difference.place < 0.5  # of the lateral motion itself; the other one starts on time
+    assert difference.time <= FINE
+
+
 def _stem(path: Path) -> str:
     return path.stem
 

@@ -82,3 +82,28 @@ WAITS_FOR_THE_SAME_INSTANT = source(
     ]
 )
 """esmini looks at no condition behind a false one, and takes no first look for a change."""
+
+PULLS_OUT_FROM_STANDSTILL = source(
+    [
+        (
+            "pulls_out",
+            "ego, parked: vehicle\n" + point("spot", 220, -2.9) + """do parallel(overlap: start):
+    serial:
+        parked.remain_stationary(duration: 3s) with:
+            position(at_point: spot, project_on_route: false, at: start)
+        parallel:
+            parked.change_speed(target: 6mps, rate_profile: constant, rate_peak: 1.5mpsps)
+            parked.follow_lane(offset: 0m, duration: 4s)
+    serial:
+        ego.drive() with:
+            lane(1, at: start)
+            position(130m, at: start)
+            speed(11mps)
+            until (parked.speed > 1mps)
+        ego.change_speed(target: 5mps, rate_profile: smooth, duration: 3s)
+""",
+        )
+    ],
+    "crossing",
+)
+"""With `direction`, esmini takes lateral motion of a slow car for a part of its speed."""

@@ -21,6 +21,7 @@ from tests.xosc.esmini_laws import (
     AFTER_AN_EVEN_CHANGE,
     BESIDE_IN_A_BEND,
     CHANGE_AT_A_FORK,
+    PULLS_OUT_FROM_STANDSTILL,
     PUT_AT_THE_START,
     WAITS_FOR_THE_SAME_INSTANT,
 )
@@ -106,6 +107,20 @@ def test_a_change_of_lane_at_a_fork_is_up_to_esmini(tmp_path: Path) -> None:
     (loss,) = found.report.losses
     assert loss.construct == "action change_lane"
     assert loss.reason == FORK
+
+
+def test_speeds_are_compared_as_commanded(tmp_path: Path) -> None:
+    path = tmp_path / "it.osc"
+    path.write_text(PULLS_OUT_FROM_STANDSTILL, encoding="utf-8")
+    directions = {}
+    for profile in ("generic", "esmini"):
+        xml_options = XmlOptions(profile=profile, version="1.3", allow_approx=True)
+        options = CompileOptions(xml=xml_options)
+        (found,) = Compilation(path, path.name, options).xml
+        assert found.xml is not None
+        (condition,) = read(found.xml).below(xml.SpeedCondition)
+        directions[profile] = condition.direction
+    assert directions == {"generic": "longitudinal", "esmini": None}
 
 
 def test_an_event_is_looked_at_before_what_it_waits_for(tmp_path: Path) -> None:

@@ -53,6 +53,7 @@ class Body:
         is_at_end: Its road has ended.
         beyond: Seconds since then.
         counts_along_road: Positions relative to it count metres along its road, not along its lane.
+        reports_commanded: Its speed without a direction is the one along its axis.
         behind: The towing body, with the metres from its reference point back to the hitch, and
             from the coupler to the own reference point.
         cursor: Moves it along its lane; made with the first step.
@@ -81,6 +82,7 @@ class Body:
     is_at_end: bool = False
     beyond: float = 0.0
     counts_along_road: bool = False
+    reports_commanded: bool = False
     behind: tuple[Body, float, float] | None = None
     cursor: LaneCursor | None = None
     located: tuple[Pose, LanePosition | None, int, LanePosition | None] | None = None

@@ -37,6 +37,7 @@ class Reading:
         carries_acceleration: A profile of speeds begins with the present acceleration.
         counts_along_roads: A position relative to an entity counts metres along its road, not its
             lane.
+        commands_speeds: A speed without a direction is that along the entity.
         guesses_at_forks: At a fork, lane changes and driving against traffic may lead anywhere.
     """
 
@@ -45,6 +46,7 @@ class Reading:
     counts_from_looking: bool = False
     carries_acceleration: bool = False
     counts_along_roads: bool = False
+    commands_speeds: bool = False
     guesses_at_forks: bool = False
 
 

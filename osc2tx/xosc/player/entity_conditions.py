@@ -65,6 +65,8 @@ def compared(node: Element, measure: Measure) -> Test:
 def _test_of(body: Body, node: Element, world: World) -> Test:
     match node.tag:
         case "SpeedCondition":
+            if body.reports_commanded and not node.get("direction"):
+                return compared(node, lambda: body.v)
             return compared(node, _part(node, lambda: body.v, lambda: body.rate))
         case "AccelerationCondition":
             return compared(node, _part(node, lambda: body.a, lambda: body.swing))

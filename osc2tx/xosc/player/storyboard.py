@@ -62,6 +62,7 @@ class Evaluator:
         for node in self.root.below(xml.ScenarioObject):
             body = body_of(node)
             body.counts_along_road = reading.counts_along_roads
+            body.reports_commanded = reading.commands_speeds
             self.bodies[body.name] = body
         carries = reading.carries_acceleration
         self.stage = Stage(self.root, self.bodies, road_map, dt, carries=carries)

@@ -44,10 +44,12 @@ def _part_of(condition: type[Motion], direction: DirectionalDimension | None) ->
     """
 
     def measure(ctx: Context, c: Comparison) -> Groups:
-        if direction != "longitudinal":
+        is_along = direction == "longitudinal"
+        if not is_along:
             ctx.require("a condition on a part of a motion", "1.2", c.source.span)
-        newer = ctx.version >= "1.2"
-        made = condition(rule=c.rule, value=c.value, direction=direction if newer else None)
+        is_commanded = condition is xml.SpeedCondition and ctx.profile.commands_speeds
+        part = None if ctx.version < "1.2" or (is_commanded and is_along) else direction
+        made = condition(rule=c.rule, value=c.value, direction=part)
         return ((of_entity(c.actor, made),),)
 
     return measure
