@@ -4,8 +4,9 @@ A case in `motion/closed_forms/*.txt` begins with `=== title | options | outcome
 members of the scenario. Options are a map and a version of the standard, if they are not
 `highway.xodr` and 2.2. An outcome is one of
 
-- `success TIME`, then what actors have at a time (default: the end): `ego@2 s=80 v=15`, and the
-  events of the run: `events near@0 done@2`,
+- `success TIME`, then what actors have at a time (default: the end): `ego@2 s=80 v=15`, the
+  events of the run: `events near@0 done@2`, and the modifiers that did not hold: `unmet speed`, or
+  `unmet` alone for none,
 - `failure` or `refused` by the run, with a part of the reason,
 - the codes with which the compiler refuses the scenario.
 """
@@ -108,5 +109,8 @@ def test_outcome(
     for expected in states:
         if expected.startswith("events"):
             assert events == expected.split()[1:]
+        elif expected.startswith("unmet"):
+            unmet = [line["modifier"] for line in lines if line["kind"] == "violation"]
+            assert unmet == expected.split()[1:]
         else:
             check(expected, found, result.time)

@@ -27,6 +27,7 @@ from osc2tx_shared.rules.combinations import (
     Timing,
     clashes,
     is_across,
+    is_admissible_range,
     sorts_of,
 )
 
@@ -46,6 +47,7 @@ __all__ = [
     "at_most_one",
     "clashes",
     "is_across",
+    "is_admissible_range",
     "none_of",
     "sorts_of",
     "violations",

@@ -20,6 +20,9 @@ RATES = ("speed", "keep_speed", "acceleration")
 CONTRADICTIONS = ((("movement_mode", "monotonous"), ("option", "prefer_non_physical")),)
 """Arguments that contradict each other in the modifiers of one action."""
 
+RANGES = ("speed_range", "acceleration_range", "distance_range", "time_range", "angle_range")
+"""Parameters for the admissible interval of a quantity (§8.9.1.4)."""
+
 STARTING = (none_of("shape", when=["at"], values=["start"]),)
 """What says nothing about a start, in any modifier."""
 
@@ -142,6 +145,24 @@ def is_across(call: Call, known: Mapping[str, ModifierRules]) -> bool:
     return LATERAL_SPEED in sorts_of(call, known)
 
 
+def is_admissible_range(
+    call: Call, calls: Collection[Call], known: Mapping[str, ModifierRules]
+) -> bool:
+    """Whether a modifier only bounds a quantity for which another one states the end.
+
+    `speed(speed_range: [15mps..20mps])` beside `speed(20mps, at: end)`: the second one determines
+    the motion, the first one has to hold on the way (§8.9.1.4).
+    """
+    given = call.given
+    if call.at != "all" or "shape" in given or not any(name in given for name in RANGES):
+        return False
+    across = is_across(call, known)
+    return any(
+        other.name == call.name and other.at == "end" and is_across(other, known) == across
+        for other in calls
+    )
+
+
 def clashes(
     calls: Sequence[CallT], known: Mapping[str, ModifierRules], timing: Timing
 ) -> Iterator[Clash[CallT]]:
@@ -166,7 +187,11 @@ class _Action(Generic[CallT]):
     def __init__(
         self, calls: Sequence[CallT], known: Mapping[str, ModifierRules], timing: Timing
     ) -> None:
-        self.calls = [call for call in calls if call.name in known]
+        self.calls = [
+            call
+            for call in calls
+            if call.name in known and not is_admissible_range(call, calls, known)
+        ]
         self.known = known
         self.timing = timing
         self.lasting = [call for call in self.calls if not self._is_start(call)]

@@ -64,9 +64,10 @@ def remain_stationary(action: object, phase: Phase) -> Sequence[Modifier]:
 
 @stands_for("follow_lane")
 def follow_lane(action: lane.FollowLane, phase: Phase) -> Sequence[Modifier]:
-    """The lane, and the offset in it."""
+    """The lane, and the offset in it: all the time, or reached if a profile leads there."""
     offset = 0.0 if action.offset is None and action.offset_range is None else action.offset
-    return KeepLane(), Lateral(offset, distance_range=action.offset_range)
+    at: At = "all" if action.rate_profile == "none" else "end"
+    return KeepLane(), Lateral(offset, distance_range=action.offset_range, at=at)
 
 
 @stands_for("change_lane")

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Unpack
 from osc2tx_runtime.domain.actors import MovableObject
 from osc2tx_runtime.domain.modifiers import Modifier, MovementModifier, Orient, PhysicalMovement
 from osc2tx_runtime.domain.modifiers.base import settled
+from osc2tx_runtime.domain.modifiers.calls import admissible_ranges
 from osc2tx_runtime.domain.paths.path_curves import PathError
 from osc2tx_runtime.domain.placing.pose_resolution import one_of_kind
 from osc2tx_runtime.domain.planning.enclosing_phase import limit_of
@@ -249,7 +250,7 @@ class ModifiedMotion(MotionAction):
         self.__dict__.pop("origin", None)
         if any(callable(value) for each in self._given for value in each.given().values()):
             self.modifiers = with_blame(self, partial(settled, self._given))
-            for depending in ("lasting", "orient"):
+            for depending in ("commanding", "lasting", "orient"):
                 self.__dict__.pop(depending, None)
         super().initialise()
 
@@ -259,9 +260,15 @@ class ModifiedMotion(MotionAction):
         return self.place_of(self.actor.id)
 
     @cached_property
+    def commanding(self) -> tuple[Modifier, ...]:
+        """The modifiers except those that only bound what another one commands."""
+        ranges = admissible_ranges(self.modifiers)
+        return tuple(m for m in self.modifiers if not any(m is each for each in ranges))
+
+    @cached_property
     def lasting(self) -> tuple[Modifier, ...]:
-        """The modifiers except those that only constrain the start."""
-        return tuple(modifier for modifier in self.modifiers if not modifier.is_start)
+        """The commanding modifiers except those that only constrain the start."""
+        return tuple(modifier for modifier in self.commanding if not modifier.is_start)
 
     @cached_property
     def orient(self) -> Orient | None:

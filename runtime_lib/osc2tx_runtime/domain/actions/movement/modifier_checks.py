@@ -5,48 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, TypeAlias
 
-from osc2tx_runtime.domain.modifiers import MODIFIERS, Modifier, Speed
+from osc2tx_runtime.domain.modifiers.calls import RULES, ModifierCall
 from osc2tx_runtime.errors import ScenarioError, UnsupportedError
-from osc2tx_runtime.language.actions.argument_rules import GivenValues
-from osc2tx_shared.classes import dataclass
 from osc2tx_shared.rules import Clash, Timing, clashes, is_across
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.planning.motion_action import ModifiedMotion
 
-RULES = {name: kind.facts.rules for name, kind in MODIFIERS.items()}
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class _Call:
-    """A modifier in the form that the rules read."""
-
-    modifier: Modifier
-    given: GivenValues
-
-    @property
-    def name(self) -> str:
-        return self.modifier.name
-
-    @property
-    def at(self) -> str:
-        return at_of(self.modifier)
-
-    @property
-    def shaped(self) -> bool:
-        return isinstance(self.modifier, Speed) and self.modifier.shaped
-
-
-def _call(modifier: Modifier) -> _Call:
-    return _Call(modifier, GivenValues({**modifier.given(), "at": at_of(modifier)}))
-
-
-_Clash: TypeAlias = Clash[_Call]
-
-
-def at_of(modifier: Modifier) -> str:
-    """Return when a modifier holds: `start`, `end` or `all`."""
-    return str(getattr(modifier, "at", "all"))
+_Clash: TypeAlias = Clash[ModifierCall]
 
 
 def check_modifiers(action: ModifiedMotion) -> None:
@@ -56,7 +22,7 @@ def check_modifiers(action: ModifiedMotion) -> None:
         UnsupportedError: They cannot be executed together, or at that time.
         ScenarioError: A modifier is given twice, or without one that it requires.
     """
-    calls = [_call(modifier) for modifier in action.modifiers]
+    calls = [ModifierCall(modifier) for modifier in action.modifiers]
     timing = Timing(action.duration is not None, action.end_is_known)
     for clash in clashes(calls, RULES, timing):
         error = _error(action.action_name, clash)
@@ -93,7 +59,7 @@ def check_options(action: ModifiedMotion) -> None:
 
 def _bound_to_lanes(action: ModifiedMotion) -> Iterator[str]:
     for modifier in action.modifiers:
-        if is_across(_call(modifier), RULES):
+        if is_across(ModifierCall(modifier), RULES):
             yield "only vehicles on lanes have a lateral speed"
-        if modifier.facts.rules.lanes_only and at_of(modifier) != "start":
+        if modifier.facts.rules.lanes_only and ModifierCall(modifier).at != "start":
             yield f"{modifier.name} is for vehicles, which follow lanes"

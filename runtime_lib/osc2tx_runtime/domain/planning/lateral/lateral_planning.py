@@ -55,7 +55,7 @@ def side_command(action: ModifiedMotion) -> Command | None:
             action.world.map, action.here, now(timed.trajectory), offsets, exact=exact
         )
         return commands[LATERAL]
-    speeds = [m for m in action.modifiers if isinstance(m, Speed) and m.direction == "lateral"]
+    speeds = [m for m in action.commanding if isinstance(m, Speed) and m.direction == "lateral"]
     if any(speed in modifiers for speed in speeds) or (speeds and exact):
         return lateral_speed_command(action, speeds)
     turned = one_of_kind(modifiers, Yaw) or one_of_kind(modifiers, Orient)

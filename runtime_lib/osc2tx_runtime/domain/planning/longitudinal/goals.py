@@ -124,4 +124,4 @@ def speed_at_end(action: ModifiedMotion) -> float | FollowSpeed | None:
 
 def speeds_of(action: ModifiedMotion) -> list[Speed]:
     """The modifiers of the speed along the road."""
-    return [m for m in action.modifiers if isinstance(m, Speed) and m.direction == "longitudinal"]
+    return [m for m in action.commanding if isinstance(m, Speed) and m.direction == "longitudinal"]

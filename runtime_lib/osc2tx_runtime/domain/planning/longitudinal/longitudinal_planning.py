@@ -147,7 +147,7 @@ def _in_time(action: ModifiedMotion, low: float, high: float) -> Command:
 
 
 def _speed(action: ModifiedMotion) -> Command | None:
-    rate = one_of_kind(action.modifiers, Acceleration)
+    rate = one_of_kind(action.commanding, Acceleration)
     lasting = [m for m in speeds_of(action) if m.at != "start"]
     start = _start_speed(action)
     if not lasting:
