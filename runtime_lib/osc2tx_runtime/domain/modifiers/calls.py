@@ -11,7 +11,6 @@ from .base import Modifier
 from .movement.speed import Speed
 from .registry import MODIFIERS
 
-
 RULES = {name: kind.facts.rules for name, kind in MODIFIERS.items()}
 
 
