@@ -234,3 +234,15 @@ def test_town06_lane_numbers(test_data: Path) -> None:
     spawn = {"a": ("40", -7, 100.0), "b": ("40", -3, 100.0)}
     world = place(town, (a, [lane(1)]), (b, [lane(1, from_="left")]), spawn=spawn)
     assert (world.state("a").lane, world.state("b").lane) == (-7, -3)
+
+
+@pytest.mark.parametrize("wanted", [(), (lane(1),), (lane(1), position(20.0))])
+def test_roads_that_lead_on_are_preferred(test_data: Path, wanted: Sequence[Modifier]) -> None:
+    # Two lanes of each of its four roads: one to the junction, one to the edge of the map.
+    town = read_map(test_data / "maps/esmini/fabriksgatan.xodr")
+    first = town.spawn_points()[0]
+    assert town.advance(first, 100.0).travelled < 100.0
+    a = Vehicle(name="a")
+    at = place(town, (a, wanted)).state("a").lane_position
+    assert at is not None
+    assert town.advance(at, 100.0).travelled == pytest.approx(100.0)

@@ -13,6 +13,8 @@ from osc2tx_runtime.errors import PlacementError
 from osc2tx_runtime.opendrive import LanePosition, MapError, RoadMap
 from osc2tx_runtime.world.geometry.lane_neighbours import lane_with_number, number_of_lane
 
+_AHEAD = 100.0  # m of road or more that an actor should have ahead where the scenario leaves it open
+
 TakenBy: TypeAlias = Callable[[LanePosition], str | None]
 """Returns the actor that blocks a position, and the overlap; None if it is free."""
 
@@ -151,6 +153,16 @@ class StartPlaces:
             raise PlacementError(f"{error.message} that is part of its path, {segment}") from None
 
     def _candidates(self, lane: Lane | None, distance: float | None) -> Iterator[LanePosition]:
+        """Default start positions, those shortly before a dead end last."""
+        dead_ends = []
+        for place in self._places(lane, distance):
+            if self._map.advance(place, _AHEAD).travelled < _AHEAD:
+                dead_ends.append(place)
+            else:
+                yield place
+        yield from dead_ends
+
+    def _places(self, lane: Lane | None, distance: float | None) -> Iterator[LanePosition]:
         """Default start positions; with a distance, positions there on each road.
 
         If a road is too short, its other carriageway is also omitted.
