@@ -13,7 +13,7 @@ from osc2tx_runtime.errors import PlacementError
 from osc2tx_runtime.opendrive import LanePosition, MapError, RoadMap
 from osc2tx_runtime.world.geometry.lane_neighbours import lane_with_number, number_of_lane
 
-_AHEAD = 100.0  # m of road or more that an actor should have ahead where the scenario leaves it open
+_AHEAD = 100.0  # m of road ahead that a start should have
 
 TakenBy: TypeAlias = Callable[[LanePosition], str | None]
 """Returns the actor that blocks a position, and the overlap; None if it is free."""
