@@ -15,18 +15,16 @@ from osc2tx.compilation.driver import Compilation
 from osc2tx.diagnostics import Severity
 from osc2tx.grading.imports import import_deviation
 from osc2tx.grading.runs import NoEvidence
+from osc2tx.importing.batch import Batch
 from osc2tx.importing.distributions import Distribution
 from osc2tx.importing.document import Folders, Refused
 from osc2tx.importing.importer import Imported
-from osc2tx.importing.libraries import Libraries
-from osc2tx.importing.names import snake
 from osc2tx.importing.parameters import Parameter
-from osc2tx.importing.reading import import_file
 from osc2tx.importing.report import ImportReport, Measured
 from osc2tx.module_loading import scenarios_of_module
 from osc2tx.options import CompileOptions
 from osc2tx_runtime import ScenarioError
-from osc2tx_shared.classes import dataclass
+from osc2tx_shared.classes import dataclass, replace
 from osc2tx_shared.text import complain, put_document, say
 
 INPUT = "-"
@@ -39,12 +37,14 @@ class Result:
     """A document that was imported.
 
     Attributes:
+        source: The document; `None` for standard input.
         imported: The scenario.
         text: Its text, formatted.
         faults: Errors that a check of it finds.
         distribution: Values for its runs.
     """
 
+    source: Path | None
     imported: Imported
     text: str
     faults: tuple[str, ...]
@@ -133,6 +133,8 @@ def import_all(
 ) -> tuple[list[Result], int]:
     """Write the scenarios of documents; return them, and how many documents were refused.
 
+    The scenarios that distributions name are written as well.
+
     Args:
         sources: The documents; `None` for standard input.
         out: Folder of the scenarios.
@@ -140,42 +142,41 @@ def import_all(
         name: The name of the only scenario.
         force: Whether to replace scenarios and libraries that have another text.
     """
-    libraries: Libraries = {}
+    batch = Batch(folders)
     results: list[Result] = []
     refused = 0
-    names: set[str] = set()
-    for source in sources:
-        said = name or ("scenario" if source is None else source.stem)
-        while snake(said) in names:
-            said += "_2"
-        names.add(snake(said))
-        try:
-            found = import_file(source, said, libraries, folders)
-        except Refused as error:
-            where = f"{source or 'standard input'}:{error.place or ''}".rstrip(":")
-            complain(f"{where}: {error.reason}")
+    for found in batch.run(sources, name):
+        imported = found.imported
+        if isinstance(imported, Refused):
+            where = f"{found.source or 'standard input'}:{imported.place or ''}".rstrip(":")
+            complain(f"{where}: {imported.reason}")
             refused += 1
-            continue
-        if found is not None:
-            results.append(Result(found[0], found[0].text, (), found[1]))
+        else:
+            text = imported.text
+            results.append(Result(found.source, imported, text, (), found.distribution))
     out.mkdir(parents=True, exist_ok=True)
-    written = {out / f"{library.name}.osc": library.text for library in libraries.values()}
-    kept = {} if force else _texts_of_others(written)
-    for path in written.keys() - kept.keys():
-        write_text(path, written[path])
-    checked = [_checked(each, out) for each in results]
-    scenarios = {out / f"{each.imported.name}.osc": each.text for each in checked}
-    kept |= {} if force else _texts_of_others(scenarios)
-    for path in kept:
-        complain(f"{path}: exists with another text and is kept; --force replaces it")
-    for each in checked:
+    files = {each.name: each.text for each in batch.libraries.values()}
+    files |= {each.name: each.text for each in batch.bases}
+    paths = {out / f"{name}.osc": text for name, text in files.items()}
+    kept = [path for path, text in paths.items() if not _put(path, text, force=force)]
+    for number, result in enumerate(results):  # each beside what it imports
+        results[number] = each = _checked(result, out)
         path = out / f"{each.imported.name}.osc"
-        if path in kept:
-            continue
-        write_text(path, each.text)
-        write_text(out / f"{each.imported.name}.import.json", each.imported.report.to_json())
-    write_settings([(each.imported, each.distribution) for each in checked], out)
-    return checked, refused + len(kept)
+        if _put(path, each.text, force=force):
+            write_text(out / f"{each.imported.name}.import.json", each.imported.report.to_json())
+        else:
+            kept.append(path)
+    write_settings([(each.imported, each.distribution) for each in results], out)
+    return results, refused + len(kept)
+
+
+def _put(path: Path, text: str, *, force: bool) -> bool:
+    """Write a file unless it exists with another text; return whether it has the text."""
+    if force or not path.exists() or path.read_bytes() == text.encode():
+        write_text(path, text)
+        return True
+    complain(f"{path}: exists with another text and is kept; --force replaces it")
+    return False
 
 
 def import_folder(folder: Path, out: Path) -> Exit:
@@ -214,14 +215,16 @@ def _checked(result: Result, out: Path) -> Result:
         result.imported.report.measure(None, "the check of the scenario reports errors")
     else:
         _measure(result, compilation)
-    return Result(result.imported, text, faults, result.distribution)
+    return replace(result, text=text, faults=faults)
 
 
 def _measure(result: Result, compilation: Compilation) -> None:
     """Add the deviation of a run of the scenario from its document to the report."""
-    imported, given = result.imported, {}
-    if result.distribution is not None:
-        given = result.distribution.first
+    imported, given, drawn = result.imported, {}, {}
+    if (values := result.distribution) is not None:
+        given = drawn = values.first
+        if imported.program.base:  # which a value that is the only one is a constant of
+            drawn = {said: text for said, text in given.items() if values.open[said].is_open}
     try:
         with scenarios_of_module(compilation.whole_module()) as scenarios:
             found = import_deviation(
@@ -229,7 +232,7 @@ def _measure(result: Result, compilation: Compilation) -> None:
                 imported.document.map_file,
                 scenarios[imported.name],
                 imported.actors,
-                _in_si_units(given, imported.parameters),
+                _in_si_units(drawn, imported.parameters),
                 imported.starts,
                 is_endless=imported.is_endless,
             )
@@ -253,12 +256,6 @@ def _in_si_units(
     }
 
 
-def _texts_of_others(files: Mapping[Path, str]) -> dict[Path, str]:
-    """Return the files that exist with another text than the one to write."""
-    found = {path: text for path, text in files.items() if path.exists()}
-    return {path: text for path, text in found.items() if path.read_bytes() != text.encode()}
-
-
 # --- the summary ----------------------------------------------------------------------------------
 
 
@@ -268,15 +265,17 @@ def _sum_up(results: Sequence[Result], form: str) -> None:
         put_document(json.dumps(documents, indent=1, ensure_ascii=False) + "\n")
         return
     grades: Counter[str] = Counter()
+    told: set[str] = set()
     for each in results:
         report = each.imported.report
         grades[report.grade] += 1
         name = f"{each.imported.name}.osc"
-        for finding in report.ordered[:MOST_SHOWN]:
-            what = f"{finding.grade}: {finding.construct}: {finding.reason}"
-            at = (finding.file or report.source, str(finding.place or ""))
-            say(f"{':'.join(filter(None, at))}: {what}")
-        if (more := len(report.findings) - MOST_SHOWN) > 0:
+        # what a scenario inherits has been told of the one that it is in
+        findings = [text for text in _findings(report) if text not in told]
+        told.update(findings)
+        for text in findings[:MOST_SHOWN]:
+            say(text)
+        if (more := len(findings) - MOST_SHOWN) > 0:
             say(f"{report.source}: {more} more in {each.imported.name}.import.json")
         for fault in each.faults:
             complain(f"{name}: {fault}")
@@ -287,6 +286,14 @@ def _sum_up(results: Sequence[Result], form: str) -> None:
     _sum_up_runs([each.imported.report for each in results])
     parts = ", ".join(f"{count} {grade}" for grade, count in sorted(grades.items()))
     say(f"{count_of(len(results), 'scenario')} imported" + (f": {parts}" if parts else ""))
+
+
+def _findings(report: ImportReport) -> Iterator[str]:
+    """Yield the findings of a document as lines."""
+    for finding in report.ordered:
+        what = f"{finding.grade}: {finding.construct}: {finding.reason}"
+        at = (finding.file or report.source, str(finding.place or ""))
+        yield f"{':'.join(filter(None, at))}: {what}"
 
 
 def _sum_up_runs(reports: Sequence[ImportReport]) -> None:

@@ -35,7 +35,7 @@ class Beside:
         if reference is None or node.find("Orientation") is not None:
             return None
         lanes = int(self._values.nominal(node, "dLane"))
-        if abs(self._values.nominal(node, "offset")) > 1e-9:
+        if abs(self._values.nominal(node, "offset")) > 1e-9 or self._values.varies(node, "offset"):
             return None
         body, found = self._ground.bodies.get(said), self._ground.static_of(node)
         direction = 1
@@ -151,6 +151,12 @@ class Beside:
         t = offset.text if is_left else f"-{offset.within(PRODUCT)}"
         way = total(LENGTH, (1, s), (direction if ahead else -direction, gap))
         return Spot(odr_point(body.place.road, str(body.place.lane), way.text, t))
+
+    def varies_aside(self, said: str) -> bool:
+        """Whether an entity is put into its lane with an offset that varies from run to run."""
+        start = self._start_of(said)
+        given = None if start is None else start.get("offset")
+        return given is not None and self._values.varies_in(given)
 
     def _start_of(self, said: str) -> Element | None:
         """Return the element of the place at which an entity is put at the start."""

@@ -10,7 +10,7 @@ from osc2tx.importing.dimensions import LENGTH, literal
 from osc2tx.importing.document import Document
 from osc2tx.importing.libraries import Shared
 from osc2tx.importing.names import Names, snake
-from osc2tx.importing.program import declaration, keeps
+from osc2tx.importing.program import Declared, keeps
 from osc2tx.importing.values import Values
 from osc2tx.xosc.element import Element, Unresolved
 from osc2tx_shared.classes import dataclass
@@ -130,7 +130,7 @@ class Cast:
 
     Attributes:
         actors: By their names in the document.
-        lines: Their declarations, by their names in the document.
+        members: Their declarations, by their names in the document.
         tows: Names of trailers in the document with those of the actors that tow them.
     """
 
@@ -143,7 +143,7 @@ class Cast:
         shared: Shared,
     ) -> None:
         self.actors: dict[str, Actor] = {}
-        self.lines: dict[str, list[str]] = {}
+        self.members: dict[str, Declared] = {}
         self.tows: dict[str, tuple[str, Node]] = {}
         self._document, self._values, self._ledger = document, values, ledger
         self._names, self._shared = names, shared
@@ -161,7 +161,7 @@ class Cast:
             note_controllers(each, self._document)
         for child in node.children(*KINDS):
             kind, constraints = facts(child, self._document)
-            self.lines[said] = declaration(name, kind, [f"it.{each}" for each in constraints])
+            self.members[said] = Declared(name, kind, [f"it.{each}" for each in constraints])
             self.actors[said] = Actor(name, _moving(kind), bool(controllers))
             self._note_trailers(child, name)
             return
@@ -172,7 +172,7 @@ class Cast:
             type_name = kind = "vehicle"
         else:
             type_name, kind = self._of_catalog(reference, name)
-        self.lines[said] = [f"{name}: {type_name}"]
+        self.members[said] = Declared(name, type_name)
         self.actors[said] = Actor(name, kind, bool(controllers))
 
     def _of_catalog(self, reference: Node, name: str) -> tuple[str, str]:
@@ -207,7 +207,7 @@ class Cast:
                 else:
                     part.leave_out("a trailer that is no entity of the scenario")
 
-    def couplings(self) -> list[str]:
+    def couplings(self) -> list[Declared]:
         """Return which vehicles tow which trailers from the start on."""
         found = []
         for said, (vehicle, node) in self.tows.items():
@@ -215,7 +215,7 @@ class Cast:
             if trailer is None:
                 node.leave_out(f"there is no entity {said}")
             else:
-                found.append(f"{vehicle}.tow_trailer(trailer: {trailer.name})")
+                found.append(Declared("", f"{vehicle}.tow_trailer(trailer: {trailer.name})"))
         return found
 
 

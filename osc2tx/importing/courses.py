@@ -10,6 +10,7 @@ from osc2tx.importing.cursor import Node
 from osc2tx.importing.dimensions import LENGTH, literal
 from osc2tx.importing.ground import UNKNOWN, Ground
 from osc2tx.importing.points import odr_point
+from osc2tx.importing.values import Values
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.player.bodies import Body, Pose
 from osc2tx.xosc.player.places import waypoints
@@ -63,13 +64,19 @@ def of_curve(way: Way) -> Way:
 class Courses:
     """Finds out where routes and trajectories lead."""
 
-    def __init__(self, ground: Ground) -> None:
-        self._ground = ground
+    def __init__(self, ground: Ground, values: Values) -> None:
+        self._ground, self._values = ground, values
 
     def corners(self, trajectory: Node) -> list[str]:
-        """Return the points of the map that a trajectory leads along; none if others are in it."""
+        """Return the points of the map that a trajectory leads along; none if others are in it.
+
+        What varies from run to run stands in them.
+        """
         found = []
-        for vertex in self._ground.resolved(trajectory).below(xml.Vertex):
+        given = self._values.document.given(trajectory.element, xml.Vertex)
+        for raw, vertex in zip(
+            given, self._ground.resolved(trajectory).below(xml.Vertex), strict=True
+        ):
             place = self._ground.known(vertex.one(xml.Position))
             if not isinstance(place, LanePosition) or self._ground.map is None:
                 return []
@@ -78,8 +85,29 @@ class Courses:
                 return []
             t = place.offset * self._ground.map.travel_direction(place.road, place.lane)
             at = literal(round(place.s, 6), LENGTH), literal(round(t, 6), LENGTH)
-            found.append(odr_point(place.road, str(place.lane), *at))
+            varied = self._varied(trajectory.other(raw.one(xml.Position).inner))
+            found.append(varied or odr_point(place.road, str(place.lane), *at))
         return found
+
+    def is_nominal(self, trajectory: Node) -> bool:
+        """Whether parameters give a part of a trajectory that does not follow them."""
+        vertices = list(self._values.document.given(trajectory.element, xml.Vertex))
+        return any(
+            text.startswith("$")
+            for part in vertices or [trajectory.element]
+            if not (vertices and self._varied(trajectory.other(part.one(xml.Position).inner)))
+            for each in part.walk()
+            for _, text in each.attributes
+        )
+
+    def _varied(self, place: Node) -> str:
+        """Return a point of the map whose place varies from run to run; `""`: it does not."""
+        across = {"LanePosition": "offset", "RoadPosition": "t"}.get(place.tag, "")
+        if not across or not any(self._values.varies(place, name) for name in ("s", across)):
+            return ""
+        lane = self._values.text(place, "laneId") if place.has("laneId") else ""
+        s, t = (self._values.quantity(place, name, LENGTH).text for name in ("s", across))
+        return odr_point(self._values.text(place, "roadId"), lane, s, t)
 
     def along_road(self, trajectory: Node, body: Body) -> list[str]:
         """Return the points that a trajectory leads along on the road of an entity beside it.

@@ -12,7 +12,7 @@ from osc2tx.importing.distributions import Open, meets
 from osc2tx.importing.document import Document
 from osc2tx.importing.expressions import Untyped
 from osc2tx.importing.parameters import Parameter
-from osc2tx.importing.program import declaration, with_comments
+from osc2tx.importing.program import ROAD, Declared
 from osc2tx.importing.report import ImportReport
 from osc2tx.importing.values import Values
 from osc2tx.xosc import Element
@@ -52,7 +52,7 @@ class Declarations:
         self._document, self._root, self._values = document, root, values
         self._report, self._open, self._comments_of = report, open_, comments_of
 
-    def map(self) -> list[str]:
+    def map(self) -> list[Declared]:
         """Return the declaration of the map."""
         network = self._root.find("RoadNetwork")
         if network is None:
@@ -68,16 +68,16 @@ class Declarations:
                 if found is None and said:
                     each.approximate(f"the map {said} is not found: places on it were not checked")
                 if name:
-                    return declaration("road", "map", [f'it.map_file == "{name}"'])
+                    return [Declared(ROAD, "map", [f'it.map_file == "{name}"'])]
             elif each.tag == "SceneGraphFile":
                 continue
             else:
                 each.leave_out("of the network only the map is imported")
-        return ["road: map"]
+        return [Declared(ROAD, "map")]
 
-    def parameters(self) -> list[str]:
+    def parameters(self) -> list[Declared]:
         """Return those of the parameters that are read."""
-        lines: list[str] = []
+        found: list[Declared] = []
         for holder in self._root.children("ParameterDeclarations"):
             nodes = {
                 each.element.get("name") or "": each
@@ -85,7 +85,7 @@ class Declarations:
             }
             for said, parameter in self._values.parameters.items():
                 if parameter.is_used and said in nodes:
-                    lines += self._parameter(nodes[said], parameter)
+                    found.append(self._parameter(nodes[said], parameter))
                 elif said in nodes:
                     nodes[said].use_all()
                     value = nodes[said].element.get("value") or ""
@@ -99,9 +99,9 @@ class Declarations:
             for each in holder.children():
                 said_ = f"variable {each.element.get('name')}", each.element.get("value") or ""
                 self._report.idle.append((*said_, "variables are events here", str(each.place)))
-        return ["", *lines] if lines else []
+        return found
 
-    def _parameter(self, node: Node, parameter: Parameter) -> list[str]:
+    def _parameter(self, node: Node, parameter: Parameter) -> Declared:
         said = node.said("name")
         node.text("parameterType")
         node.text("value")
@@ -112,28 +112,28 @@ class Declarations:
         except Untyped:
             node.approximate("what gives it has no form here, so it has its nominal value")
             value = self._values.in_unit(float(self._document.parameters[said]), parameter)
-        constraints = self._constraints(node, parameter)
+        constraints, varied = self._constraints(node, parameter), ""
         if said in self._open:
             constraints = constraints if not self._is_kept(node, self._open[said]) else []
             varied = self._varied(node, self._open[said], parameter)
-            if varied.startswith("it in "):
+            if varied.startswith("in "):
                 value = ""
-                constraints.insert(0, varied)
+                constraints.insert(0, f"it {varied}")
             elif varied:
-                value = varied
-        lines = declaration(parameter.name, kind, constraints, value)
-        return with_comments(lines, self._comments_of(node.element))
+                value = varied.removeprefix("== ")
+        comments = self._comments_of(node.element)
+        return Declared(parameter.name, kind, constraints, value, comments, varied)
 
     def _varied(self, node: Node, open_: Open, parameter: Parameter) -> str:
         """Return the range of a parameter, or its only value; nothing, with a finding, if none."""
         try:
             if len(open_.values) == 1:
-                return self._values.in_unit(float(open_.values[0]), parameter)
+                return f"== {self._values.in_unit(float(open_.values[0]), parameter)}"
             if open_.values:
                 said = [self._values.in_unit(float(each), parameter) for each in open_.values]
-                return f"it in [{', '.join(said)}]"
+                return f"in [{', '.join(said)}]"
             limits = (self._values.in_unit(each, parameter) for each in (open_.low, open_.high))
-            return f"it in [{'..'.join(limits)}]"
+            return f"in [{'..'.join(limits)}]"
         except (ValueError, OverflowError):
             node.leave_out("its distribution has no form here")
             return ""

@@ -7,13 +7,14 @@ say which rows there are: a table of them is what a campaign runs. Stochastic on
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import field
-from itertools import islice, product
+from itertools import chain, islice, product
+from types import MappingProxyType
 
 from osc2tx.importing.cursor import Ledger, Node
-from osc2tx.importing.document import Refused
+from osc2tx.importing.document import Refused, read_in
+from osc2tx.importing.headers import header_of
 from osc2tx.importing.report import ImportReport
 from osc2tx.xosc import Element, Place
 from osc2tx.xosc.arithmetic import evaluated
@@ -23,7 +24,6 @@ from osc2tx_shared.classes import dataclass
 MOST_ROWS = 5000
 MOST_VALUES = 10_000
 MOST_COMBINATIONS = 100_000
-_READ = re.compile(r"\$([A-Za-z_]\w*)").findall
 
 
 @dataclass
@@ -42,6 +42,47 @@ class Open:
     high: float = math.inf
     place: Place | None = None
 
+    @property
+    def is_open(self) -> bool:
+        """Whether there is more than one value."""
+        return len(set(self.values)) != 1
+
+    def allows(self, text: str) -> bool:
+        """Whether a parameter may have a value."""
+        if self.values:
+            return any(_is_same(text, each) for each in self.values)
+        try:
+            return self.low <= float(text) <= self.high
+        except ValueError:
+            return False
+
+
+def _has(row: Mapping[str, str], wanted: Mapping[str, str]) -> bool:
+    return all(_is_same(text, wanted[name]) for name, text in row.items() if name in wanted)
+
+
+def _is_same(one: str, other: str) -> bool:
+    """Whether texts are the same value."""
+    try:
+        return float(one) == float(other)
+    except ValueError:
+        return one == other
+
+
+NOTHING: Mapping[str, Open] = {}
+"""Nothing that varies."""
+
+
+def merged(one: Mapping[str, Open], other: Mapping[str, Open]) -> dict[str, Open]:
+    """Return what parameters may be by one of two distributions."""
+    found = dict(one)
+    for name, each in other.items():
+        mine = found.get(name, each)
+        is_listed = bool(mine.values and each.values)
+        values = tuple(dict.fromkeys((*mine.values, *each.values))) if is_listed else ()
+        found[name] = Open(values, place=mine.place)
+    return found
+
 
 @dataclass
 class Distribution:
@@ -50,18 +91,22 @@ class Distribution:
     Attributes:
         scenario: Path of its document.
         place: Where that is named.
+        header: Comments at the beginning of its file.
         open: What each parameter may be, by its name in the document.
         axes: Rows of values that are combined with each other, of parameters that vary together.
         is_drawn: Whether values are drawn.
         runs: How many rows are drawn.
         seed: Seed of what is drawn.
-        chosen: The first row that meets the constraints of the scenario; empty: none is known.
+        chosen: A row that meets the constraints of the scenario, one with the values that this has
+            itself if there is one; empty: none is known.
         declared: Texts of the parameters of the scenario.
         constraints: The constraints of its parameters.
+        kept: Parameters that have the values of the scenario in the first run, if these occur.
     """
 
     scenario: str
     place: Place | None = None
+    header: list[str] = field(default_factory=list)
     open: dict[str, Open] = field(default_factory=dict)
     axes: list[list[Mapping[str, str]]] = field(default_factory=list)
     is_drawn: bool = False
@@ -70,6 +115,7 @@ class Distribution:
     chosen: Mapping[str, str] = field(default_factory=dict)
     declared: Mapping[str, str] = field(default_factory=dict)
     constraints: list[_Constraint] = field(default_factory=list)
+    kept: Collection[str] = ()
 
     @property
     def size(self) -> int:
@@ -81,29 +127,46 @@ class Distribution:
         """Values of one run: a chosen row, else first ones of sets and lower limits of ranges."""
         if self.chosen:
             return dict(self.chosen)
-        return {
+        found = {
             name: each.values[0] if each.values else repr(each.low)
             for name, each in self.open.items()
             if each.values or math.isfinite(each.low)
         }
+        own = {name: self.declared[name] for name in self.kept if name in self.declared}
+        return found | {name: text for name, text in own.items() if self.open[name].allows(text)}
 
     def unvaried(self, used: Collection[str]) -> Iterator[tuple[str, Open]]:
         """Yield what varies, but not in a scenario in which some parameters are open."""
         for name, each in self.open.items():
-            if name not in used and len(set(each.values)) != 1:
+            if name not in used and each.is_open:
                 yield name, each
 
-    def constrain(self, scenario: Element) -> None:
-        """Leave out the rows that the parameters of a scenario do not allow; choose the first."""
+    def constrain(self, scenario: Element, kept: Collection[str] = ()) -> None:
+        """Leave out the rows that the parameters of a scenario do not allow; choose the first.
+
+        Args:
+            scenario: The scenario.
+            kept: Parameters whose values the chosen row takes from the scenario, if one does.
+        """
+        self.kept = kept
         declarations = [node for node in scenario.walk() if node.tag == "ParameterDeclaration"]
         self.declared = {node.get("name") or "": node.get("value") or "" for node in declarations}
         self.constraints = [_Constraint(node) for node in declarations if node.children]
         if self.axes:
-            self.chosen = next(islice(self.rows(), 1), {})
+            own = [
+                {name: self.declared[name] for name in names if name in self.declared}
+                for names in (self.open, kept)
+            ]
+            self.chosen = next(chain(*map(self.rows, own), self.rows()), {})
 
-    def rows(self) -> Iterator[Mapping[str, str]]:
-        """Yield the rows of deterministic distributions: all combinations that are allowed."""
-        for parts in islice(product(*self.axes), MOST_COMBINATIONS):
+    def rows(self, wanted: Mapping[str, str] = MappingProxyType({})) -> Iterator[Mapping[str, str]]:
+        """Yield the rows of deterministic distributions: all combinations that are allowed.
+
+        Args:
+            wanted: Values that some parameters have to have.
+        """
+        axes = [[part for part in axis if _has(part, wanted)] for axis in self.axes]
+        for parts in islice(product(*axes), MOST_COMBINATIONS):
             row = {name: value for part in parts for name, value in part.items()}
             texts = {**self.declared, **row}
             if all(each.allows(texts) for each in self.constraints):
@@ -118,7 +181,7 @@ class _Constraint:
         groups = [each for each in declaration.children if each.tag == "ConstraintGroup"]
         self._groups = groups
         limits = (each.get("value") or "" for group in groups for each in group.children)
-        self._names = sorted({self._name, *(name for text in limits for name in _READ(text))})
+        self._names = sorted({self._name, *(name for text in limits for name in read_in(text))})
         self._known: dict[tuple[str | None, ...], bool] = {}
 
     def allows(self, texts: Mapping[str, str]) -> bool:
@@ -180,6 +243,8 @@ def read_distribution(root: Element, report: ImportReport) -> Distribution:
     if file is None or not path:
         raise Refused("it names no scenario", holder.place)
     found = Distribution(path, file.place)
+    if (header := node.find("FileHeader")) is not None:
+        found.header = header_of(header, "")
     for kind in holder.children("Deterministic"):
         for each in kind.children():
             _deterministic(each, found)

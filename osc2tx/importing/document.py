@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
 
@@ -107,12 +107,18 @@ class Document:
     # --- parameters -------------------------------------------------------------------------------
 
     @cached_property
+    def declared(self) -> Mapping[str, str]:
+        """The texts of the parameters as they are given."""
+        declarations = self.root.find(xml.ParameterDeclarations)
+        nodes = () if declarations is None else declarations.all(xml.ParameterDeclaration)
+        return {node.get("name") or "": node.get("value") or "" for node in nodes}
+
+    @cached_property
     def parameters(self) -> Mapping[str, str]:
         """The texts of the parameters at their nominal values, computed where they are given so."""
         found: dict[str, str] = {}
-        declarations = self.root.find(xml.ParameterDeclarations)
-        for node in () if declarations is None else declarations.all(xml.ParameterDeclaration):
-            found[node.get("name") or ""] = self.text_at(node.get("value") or "", found)
+        for name, text in self.declared.items():
+            found[name] = self.text_at(text, found)
         return found
 
     def text_at(self, text: str, values: Mapping[str, str] | None = None) -> str:
@@ -218,6 +224,14 @@ class Document:
             node = node.with_attributes(texts)
         return _with_each(node, self._resolve)
 
+    def given(self, node: Element, kind: type[Element]) -> Iterator[Element]:
+        """Yield the elements of a kind in a part with the entries of catalogs in it, as given."""
+        for each in node.walk():
+            if isinstance(each, kind):
+                yield each
+            elif each.tag == "CatalogReference" and (found := self.entry(each)) is not None:
+                yield from self.given(found[0], kind)
+
     # --- the map ----------------------------------------------------------------------------------
 
     @cached_property
@@ -239,6 +253,11 @@ class Document:
             return find_map(relative.name, self._folders.maps)
         except ScenarioError:
             return None
+
+
+def read_in(text: str) -> set[str]:
+    """Return the names of the parameters that a text reads."""
+    return set(_PARAMETER.findall(text))
 
 
 def _is_odd(named: str) -> bool:

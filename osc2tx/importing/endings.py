@@ -122,6 +122,13 @@ def texts_of(statements: Iterable[Statement]) -> Iterator[str]:
         yield from texts_of(each.members or ())
 
 
+def placed_beside(statement: Statement) -> set[str]:
+    """Return the actors that a statement puts beside others."""
+    inner = (name for each in statement.members or () for name in placed_beside(each))
+    actor = statement.text.removesuffix(".assign_position()")
+    return {*inner, *([actor] if statement.modifiers and actor != statement.text else [])}
+
+
 def first_of(endings: Sequence[Waits]) -> Waits:
     """Return what waits for the first of several ends; what they begin with alike stands once."""
     if any(not each for each in endings):

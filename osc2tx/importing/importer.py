@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from pathlib import Path
 
 from osc2tx.importing.actions import Actions
@@ -12,15 +12,17 @@ from osc2tx.importing.cast import Cast
 from osc2tx.importing.conditions import Conditions
 from osc2tx.importing.cursor import Ledger
 from osc2tx.importing.declarations import Declarations
-from osc2tx.importing.distributions import Distribution
+from osc2tx.importing.distributions import NOTHING, Distribution, Open
 from osc2tx.importing.document import NOWHERE, Document, Folders, Refused, with_values
+from osc2tx.importing.endings import placed_beside
 from osc2tx.importing.expressions import Untyped
+from osc2tx.importing.headers import header_of
 from osc2tx.importing.libraries import Libraries, Shared
 from osc2tx.importing.marks import Marks
 from osc2tx.importing.names import Names
 from osc2tx.importing.parameters import Parameter
 from osc2tx.importing.places import Places
-from osc2tx.importing.program import Program, with_comments
+from osc2tx.importing.program import ROAD, Declared, Program, read_by
 from osc2tx.importing.report import ImportReport
 from osc2tx.importing.signals import CONTROLLER, TrafficLights
 from osc2tx.importing.starting import is_straight_ahead
@@ -43,8 +45,7 @@ class Imported:
     """The result of a document.
 
     Attributes:
-        name: The name of the scenario.
-        text: The scenario, not formatted.
+        program: The scenario.
         report: What the import found.
         document: What was read.
         parameters: The parameters by their names in the document.
@@ -53,14 +54,23 @@ class Imported:
         starts: Road, lane and s (m) at which the scenario puts actors first of all.
     """
 
-    name: str
-    text: str
+    program: Program
     report: ImportReport
     document: Document
     parameters: dict[str, Parameter]
     actors: dict[str, str]
     is_endless: bool
     starts: dict[str, tuple[str, int, float]]
+
+    @property
+    def name(self) -> str:
+        """The name of the scenario."""
+        return self.program.name
+
+    @property
+    def text(self) -> str:
+        """The scenario, not formatted."""
+        return self.program.text
 
 
 def import_document(
@@ -72,6 +82,7 @@ def import_document(
     name: str = "",
     folders: Folders = NOWHERE,
     distribution: Distribution | None = None,
+    varied: Mapping[str, Open] = NOTHING,
 ) -> Imported:
     """Return the scenario of a document.
 
@@ -83,6 +94,7 @@ def import_document(
         name: The name of the scenario; else that of the file.
         folders: Where maps and catalogs are.
         distribution: What its parameters may be.
+        varied: What other scenarios that inherit it leave open; in itself they have their values.
 
     Raises:
         Refused: It is no scenario, or cannot be read.
@@ -103,7 +115,7 @@ def import_document(
     document = Document(root, path, comments, folders)
     said = name or (path.stem if path else "scenario")
     try:
-        return _Import(document, source, libraries, said, distribution).run()
+        return _Import(document, source, libraries, said, distribution, varied).run()
     except Unresolved as error:
         raise Refused(error.reason, error.place or root.place) from None
     except OverflowError:
@@ -122,16 +134,17 @@ class _Import:
         libraries: Libraries,
         name: str,
         distribution: Distribution | None,
+        varied: Mapping[str, Open],
     ) -> None:
         self._document = document
         self._open = {} if distribution is None else distribution.open
         self._report = ImportReport(source)
         self._ledger = Ledger(self._report)
         self._root = self._ledger.track(document.root)
-        self._names = Names(self._report, ("road", ENVIRONMENT, CONTROLLER))
+        self._names = Names(self._report, (ROAD, ENVIRONMENT, CONTROLLER))
         self._scenario = self._names.new(name, kind="scenario")
         self._report.scenario = self._scenario
-        self._values = Values(document, self._names, self._open)
+        self._values = Values(document, self._names, self._open or varied)
         self._shared = Shared(libraries)
         self._cast = Cast(document, self._values, self._ledger, self._names, self._shared)
         self._marks = Marks(document, self._names, self._report)
@@ -180,9 +193,7 @@ class _Import:
         whole = Whole(self._document, self._cast, self._names, self._report)
         program.body = whole.behavior(structure, structure.branches(), inits, board.end)
         self._find_used(program, places, structure)
-        program.declarations = self._declarations(
-            places, surroundings, lights, structure, program.text
-        )
+        self._declare(program, places, surroundings, lights, structure)
         program.imports = sorted(self._shared.imports)
         self._report.under_test = [each.name for each in actors.values() if each.is_under_test]
         for step in structure.events:
@@ -192,14 +203,13 @@ class _Import:
         self._close()
         parameters = self._values.parameters
         return Imported(
-            self._scenario,
-            program.text,
+            program,
             self._report,
             self._document,
             parameters,
             kinds,
             is_endless(board.end),
-            inits.starts(places),
+            inits.starts(places, placed_beside(program.body)),
         )
 
     # --- declarations -----------------------------------------------------------------------------
@@ -208,20 +218,11 @@ class _Import:
         header = self._root.find("FileHeader")
         if header is None:
             return []
-        said = [header.text("description") or "", header.text("author") or ""]
-        found = [said[0] or self._scenario]
         if is_of_carla(self._document.root):
             note = "places of the world are in the coordinates of CARLA; they are mirrored"
-            self._report.idle.append(("description", said[0], note, str(header.place)))
-        rights = [said[1]] if said[1] else []
-        for each in header.children("License"):
-            named = each.text("spdxId")
-            if named:
-                each.idle("its SPDX identifier says it", "name")
-            parts = [named or each.text("name"), each.text("resource")]
-            rights.append("licence: " + ", ".join(part for part in parts if part))
-        found += ["; ".join(rights)] if rights else []
-        return found + self._comments.pop(None, [])
+            said = header.text("description") or ""
+            self._report.idle.append(("description", said, note, str(header.place)))
+        return header_of(header, self._scenario) + self._comments.pop(None, [])
 
     def _comments_of(self, element: Element) -> list[str]:
         """Return the comments in an element, each once."""
@@ -232,44 +233,49 @@ class _Import:
 
     def _find_used(self, program: Program, places: Places, structure: Structure) -> None:
         """Note which parameters the scenario reads, itself or in what gives others."""
-        written = (program.text, *structure.lines, *places.points.lines)
-        words = set(re.findall(r"\w+", "\n".join(written)))
+        written = "\n".join([*program.behavior, *structure.lines])
+        words = _words(written).union(
+            *(_words(line) for each in places.points.lines for line in each.lines)
+        )
         for parameter in reversed(self._values.parameters.values()):
             parameter.is_used = parameter.name in words
             if parameter.is_used and parameter.expression is not None:
                 try:
-                    words |= set(re.findall(r"\w+", self._values.of_parameter(parameter)))
+                    words |= _words(self._values.of_parameter(parameter))
                 except (Untyped, ValueError):
                     continue
 
-    def _declarations(
+    def _declare(
         self,
+        program: Program,
         places: Places,
         surroundings: Surroundings,
         lights: TrafficLights,
         structure: Structure,
-        written: str,
-    ) -> list[str]:
+    ) -> None:
+        """Write what the behavior of a program reads."""
         declared = Declarations(
             self._document, self._root, self._values, self._report, self._open, self._comments_of
         )
-        lines = declared.map()
+        members = declared.map()
         if surroundings.needs_environment:
-            lines.append(f"{ENVIRONMENT}: environment")
+            members.append(Declared(ENVIRONMENT, "environment"))
         if lights.is_switched:
-            lines.append(f"{CONTROLLER}: traffic_light_controller")
-        lines += lights.lines
+            members.append(Declared(CONTROLLER, "traffic_light_controller"))
+        members += lights.lines
         for node in self._document.tagged("ScenarioObject"):
-            declared_here = self._cast.lines.pop(node.get("name") or "", None)
-            if declared_here is not None:
-                lines += with_comments(declared_here, self._comments_of(node))
-        lines += self._cast.couplings()
-        lines += declared.parameters()
-        words = set(re.findall(r"\w+", written))
-        points = [line for line in places.points.lines if _is_read(line, words)]
-        events = list(self._marks.lines(words))
-        events += [line for line in structure.lines if _is_read(line, words)]
-        return [*lines, *points, *events]
+            actor = self._cast.members.pop(node.get("name") or "", None)
+            if actor is not None:
+                actor.comments = self._comments_of(node)
+                members.append(actor)
+        program.members = [*members, *self._cast.couplings()]
+        words = _words("\n".join(program.behavior))
+        program.parameters = [
+            *declared.parameters(),
+            *read_by(places.points.lines, words),
+            *self._marks.members(words),
+            *(Declared("", line) for line in structure.lines if _is_read(line, words)),
+        ]
 
     def _close(self) -> None:
         root = self._document.root
@@ -295,7 +301,11 @@ class _Import:
         self._ledger.close()
 
 
+def _words(text: str) -> set[str]:
+    return set(re.findall(r"\w+", text))
+
+
 def _is_read(line: str, words: Collection[str]) -> bool:
-    """Whether the scenario reads the event or point that a line declares; others it does."""
-    name = re.match(r"event (\w+)$|(\w+): xyz_point =", line)
-    return name is None or (name[1] or name[2]) in words
+    """Whether the scenario reads the event that a line declares; others it does."""
+    name = re.match(r"event (\w+)$", line)
+    return name is None or name[1] in words

@@ -9,6 +9,7 @@ from collections.abc import Iterator
 
 from osc2tx.importing.document import Document
 from osc2tx.importing.names import Names, snake
+from osc2tx.importing.program import Declared
 from osc2tx.importing.report import ImportReport
 from osc2tx.xosc import elements as xml
 
@@ -68,14 +69,14 @@ class Marks:
             return None
         return self.event(name, next(iter(others)))
 
-    def lines(self, words: set[str]) -> Iterator[str]:
+    def members(self, words: set[str]) -> Iterator[Declared]:
         """Yield the declarations of what some words name."""
         kept = {event: name for event, name in self._kept.items() if name in words}
         for event in self._events.values():
             if event in words or event in kept:
-                yield f"event {event}"
+                yield Declared("", f"event {event}")
         for event, name in kept.items():
-            yield f"var {name}: bool = sample(true, @{event}, false)"
+            yield Declared("", f"var {name}: bool = sample(true, @{event}, false)")
 
 
 def _plain(value: str) -> str:

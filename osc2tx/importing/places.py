@@ -40,7 +40,7 @@ class Places(Ground):
         self._values = values
         self.points = Points(names)
         self.beside = Beside(self, document, values, actors)
-        self.courses = Courses(self)
+        self.courses = Courses(self, values)
 
     def spot(self, position: Node, name: str, *, at_start: bool) -> Spot | None:
         """Return a place in the language; `None`, with a finding, if there is none.

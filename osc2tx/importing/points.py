@@ -8,7 +8,7 @@ from dataclasses import field
 
 from osc2tx.importing.dimensions import LENGTH, literal, short
 from osc2tx.importing.names import Names
-from osc2tx.importing.program import declaration
+from osc2tx.importing.program import Declared
 from osc2tx.importing.starting import wrapped
 from osc2tx_runtime.opendrive import LanePosition
 from osc2tx_shared.classes import dataclass
@@ -65,7 +65,7 @@ class Points:
 
     def __init__(self, names: Names) -> None:
         self._names = names
-        self.lines: list[str] = []
+        self.lines: list[Declared] = []
         self._declared: dict[tuple[str, float, float], str] = {}
 
     def point(self, x: float, y: float, name: str) -> str:
@@ -77,7 +77,7 @@ class Points:
                 f"it.{axis} == {literal(v, LENGTH)}"
                 for axis, v in zip("xyz", (*key[1:], 0.0), strict=True)
             ]
-            self.lines += declaration(made, "position_3d", [" and ".join(told)])
+            self.lines.append(Declared(made, "position_3d", [" and ".join(told)]))
             self._declared[key] = made
         return self._declared[key]
 
@@ -87,7 +87,7 @@ class Points:
         if key not in self._declared:
             made = self._names.new("", kind="point", base=f"{name}_orientation")
             told = f"it.yaw == {degrees(h)} and it.pitch == 0deg and it.roll == 0deg"
-            self.lines += declaration(made, "orientation_3d", [told])
+            self.lines.append(Declared(made, "orientation_3d", [told]))
             self._declared[key] = made
         return self._declared[key]
 
@@ -97,7 +97,7 @@ class Points:
         if key not in self._declared:
             made = self._names.new("", kind="point", base=f"{name}_goal")
             at = ", ".join(literal(value, LENGTH) for value in (*key[1:], 0.0))
-            self.lines.append(f"{made}: xyz_point = road.create_xyz_point({at})")
+            self.lines.append(Declared(made, "xyz_point", value=f"road.create_xyz_point({at})"))
             self._declared[key] = made
         return self._declared[key]
 
@@ -108,7 +108,7 @@ class Points:
             f"it.position.{axis} == {literal(round(v, 6), LENGTH)}"
             for axis, v in zip("xyz", (x, y, 0.0), strict=True)
         ]
-        self.lines += declaration(made, "pose_3d", [" and ".join(told)])
+        self.lines.append(Declared(made, "pose_3d", [" and ".join(told)]))
         return made
 
     def relative(
@@ -145,7 +145,7 @@ class Points:
         told = [f"it.points == [{', '.join(corners)}]", "it.interpolation == straight_line"]
         if stamps:
             told.append(f"it.time_stamps == [{', '.join(stamps)}]")
-        self.lines += declaration(made, type_name, told)
+        self.lines.append(Declared(made, type_name, told))
         return made
 
     def route(self, stops: Sequence[LanePosition], name: str) -> str:
@@ -154,5 +154,5 @@ class Points:
         points = ", ".join(
             odr_point(each.road, str(each.lane), literal(each.s, LENGTH), "0m") for each in stops
         )
-        self.lines.append(f"{made}: route = road.create_route([{points}])")
+        self.lines.append(Declared(made, "route", value=f"road.create_route([{points}])"))
         return made

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Container, Iterable, Iterator, Sequence
+import re
+from collections.abc import Collection, Container, Iterable, Iterator, Sequence
 from dataclasses import field, replace
 from itertools import pairwise
 from textwrap import wrap
@@ -17,6 +18,8 @@ INDENT = "    "
 KEPT = WIDTH - len("keep()")
 LINE = 100
 """Characters of a line."""
+ROAD = "road"
+"""The name of the map in scenarios."""
 
 
 @dataclass
@@ -157,12 +160,74 @@ def comment_lines(comments: Iterable[str], indent: int = 1) -> Iterator[str]:
         yield from (f"# {line}" for line in lines if line)
 
 
-def with_comments(lines: Sequence[str], comments: Iterable[str]) -> list[str]:
-    """Return a declaration with its comments: behind it if they fit there, else above it."""
-    told = list(comment_lines(comments))
-    if len(told) == 1 and len(beside := f"{lines[0]}  {told[0]}") <= LINE - len(INDENT):
-        return [beside, *lines[1:]]
-    return [*told, *lines]
+@dataclass
+class Declared:
+    """A member of a scenario.
+
+    Attributes:
+        name: Its name; `""`: it has none.
+        type: Its type; all of the line if it has no name.
+        constraints: Conditions on it.
+        value: Its value; `""`: none.
+        comments: Lines above it, or one behind it.
+        varied: What follows its name in the condition that says what it may be in runs.
+    """
+
+    name: str
+    type: str
+    constraints: list[str] = field(default_factory=list)
+    value: str = ""
+    comments: list[str] = field(default_factory=list)
+    varied: str = ""
+
+    @property
+    def words(self) -> set[str]:
+        """The names in what gives it and what is said about it."""
+        return set(re.findall(r"\w+", " ".join((self.value, *self.constraints))))
+
+    @property
+    def lines(self) -> list[str]:
+        """Its lines, with its comments: behind it if they fit there, else above it."""
+        head, *constraints = self._declaration()
+        told = list(comment_lines(self.comments))
+        if len(told) == 1 and len(beside := f"{head}  {told[0]}") <= LINE - len(INDENT):
+            return [beside, *constraints]
+        return [*told, head, *constraints]
+
+    def _declaration(self) -> list[str]:
+        if not self.name:
+            return [self.type]
+        head = f"{self.name}: {self.type}" + (f" = {self.value}" if self.value else "")
+        if self.value and len(head) > LINE - len(INDENT) and not self.value.endswith(")"):
+            head = f"{self.name}: {self.type} = ({self.value})"  # lines break between brackets
+        if not self.constraints:
+            return [head]
+        return [f"{head} with:", *(f"{INDENT}{each}" for each in keeps(self.constraints))]
+
+
+def together(members: Sequence[Declared]) -> list[Declared]:
+    """Return members, neighbours of which that differ only in their names as one."""
+    found: list[Declared] = []
+    for each in members:
+        last = found[-1] if found else None
+        is_plain = bool(each.name) and not (each.value or each.comments)
+        joined = f"{last.name}, {each.name}" if last is not None else ""
+        is_short = len(f"{INDENT}{joined}: {each.type} with:") <= LINE
+        if last is not None and is_plain and is_short and last == replace(each, name=last.name):
+            found[-1] = replace(each, name=joined)
+        else:
+            found.append(each)
+    return found
+
+
+def read_by(members: Sequence[Declared], words: Collection[str]) -> list[Declared]:
+    """Return the members that some words name, or others of them that these read."""
+    found, words = [], set(words)
+    for each in reversed(members):
+        if not each.name or each.name in words:
+            words |= each.words
+            found.append(each)
+    return found[::-1]
 
 
 @dataclass
@@ -172,50 +237,55 @@ class Program:
     Attributes:
         name: The scenario.
         header: Comment at its beginning.
-        imports: Libraries beside it.
-        declarations: Lines of its members, before `do`.
+        imports: Libraries beside it, which import the standard one.
+        base: The scenario that it inherits, of a file of that name; `""`: none.
+        brought: Libraries that the file of that imports.
+        members: Its actors and what else is there.
+        parameters: Its parameters, and what is computed from them.
         body: What happens.
     """
 
     name: str
     header: list[str] = field(default_factory=list)
     imports: list[str] = field(default_factory=list)
-    declarations: list[str] = field(default_factory=list)
+    base: str = ""
+    brought: Collection[str] = ()
+    members: list[Declared] = field(default_factory=list)
+    parameters: list[Declared] = field(default_factory=list)
     body: Statement | None = None
+
+    @property
+    def behavior(self) -> list[str]:
+        """The lines of `do`."""
+        if self.body is None:
+            return []
+        first, *others = self.body.lines(1)
+        above = []
+        while first.strip().startswith("#"):
+            above.append(first)
+            first, *others = others
+        return [*above, "", f"{INDENT}do {first.strip()}", *others]
 
     @property
     def text(self) -> str:
         """The text of the file."""
-        imported = sorted(self.imports)
+        own = [each for each in self.imports if each not in self.brought]
+        imported = [*([self.base] if self.base else []), *sorted(own)]
         lines = [
             *comment_lines(self.header, 0),
-            "import osc.standard.all",
-            *(f"import {name}" for name in imported),
+            *(f"import {name}" for name in imported or ["osc.standard.all"]),
             "",
-            f"namespace null use {', '.join(('std', 'stdtypes', *imported))}",
-            "",
-            f"scenario {self.name}:",
-            *(f"{INDENT}{line}" if line else "" for line in self.declarations),
         ]
-        if self.body is not None:
-            first, *others = self.body.lines(1)
-            while first.strip().startswith("#"):
-                lines.append(first)
-                first, *others = others
-            lines += ["", f"{INDENT}do {first.strip()}", *others]
-        return "\n".join(lines) + "\n"
-
-
-def declaration(
-    name: str, type_name: str, constraints: Sequence[str], value: str = ""
-) -> list[str]:
-    """Return the lines of a member with constraints."""
-    head = f"{name}: {type_name}" + (f" = {value}" if value else "")
-    if len(head) > LINE - len(INDENT) and not value.endswith(")"):
-        head = f"{name}: {type_name} = ({value})"  # lines break between brackets
-    if not constraints:
-        return [head]
-    return [f"{head} with:", *(f"{INDENT}{each}" for each in keeps(constraints))]
+        if self.members or self.body is not None:
+            lines += [f"namespace null use {', '.join(('std', 'stdtypes', *self.imports))}", ""]
+        inherits = f" inherits {self.base}" if self.base else ""
+        is_empty = not (self.members or self.parameters or self.body)
+        lines.append(f"scenario {self.name}{inherits}{'' if is_empty else ':'}")
+        parts = [together(self.members), self.parameters]
+        for part in filter(None, parts):
+            lines += [""] if part is self.parameters and self.members else []
+            lines += [f"{INDENT}{line}" for each in part for line in each.lines]
+        return "\n".join([*lines, *self.behavior]) + "\n"
 
 
 def keeps(constraints: Sequence[str]) -> list[str]:

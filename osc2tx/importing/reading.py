@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Collection, Mapping
 from pathlib import Path
 
-from osc2tx.importing.distributions import Distribution, read_distribution
+from osc2tx.importing.distributions import NOTHING, Distribution, Open, read_distribution
 from osc2tx.importing.document import Folders, Refused
 from osc2tx.importing.importer import Imported, import_document
 from osc2tx.importing.libraries import Libraries
@@ -14,8 +15,42 @@ from osc2tx.importing.report import ImportReport
 from osc2tx.xosc import Element, Place, Unreadable, read
 
 
+def open_in(source: Path, folders: Folders) -> tuple[Path, Mapping[str, Open]] | None:
+    """Return the scenario that a document with distributions names, and what they leave open.
+
+    `None`: it is no such document.
+
+    Raises:
+        Refused: It cannot be read.
+    """
+    data = _bytes_of(source)
+    if b"ParameterValueDistribution" not in data:
+        return None
+    values = read_distribution(_root(data), ImportReport(source.name))
+    return scenario_of(source, values, folders), values.open
+
+
+def scenario_of(source: Path | None, values: Distribution, folders: Folders) -> Path:
+    """Return the path of the scenario that a document with distributions names.
+
+    Raises:
+        Refused: It is outside of the folders of the document.
+    """
+    folder = Path() if source is None else source.parent
+    named = values.scenario.replace("\\", "/")
+    problem = Reach(folder, (*folders.maps, *folders.catalogs)).problem(named, (folder,))
+    if problem:
+        raise Refused(f"its scenario {named!r} is not read: {problem}", values.place)
+    return folder / named
+
+
 def import_file(
-    source: Path | None, name: str, libraries: Libraries, folders: Folders
+    source: Path | None,
+    name: str,
+    libraries: Libraries,
+    folders: Folders,
+    varied: Mapping[str, Open] = NOTHING,
+    kept: Collection[str] = (),
 ) -> tuple[Imported, Distribution | None] | None:
     """Return the scenario of a file, with values for its runs; none of a catalog, which others use.
 
@@ -24,6 +59,8 @@ def import_file(
         name: The name of the scenario.
         libraries: The library files so far; gains those that it needs.
         folders: Where maps and catalogs are.
+        varied: What scenarios that inherit it leave open.
+        kept: Parameters that keep the values of the scenario in the first run of distributions.
 
     Raises:
         Refused: It is none, or cannot be read.
@@ -35,8 +72,10 @@ def import_file(
         return None
     said = "-" if source is None else source.name
     if "ParameterValueDistribution" in tags:
-        return _with_values(root, source, said, name, libraries, folders)
-    found = import_document(data, said, libraries, path=source, name=name, folders=folders)
+        return _with_values(root, source, said, name, libraries, folders, kept)
+    found = import_document(
+        data, said, libraries, path=source, name=name, folders=folders, varied=varied
+    )
     return found, None
 
 
@@ -47,18 +86,14 @@ def _with_values(
     name: str,
     libraries: Libraries,
     folders: Folders,
+    kept: Collection[str],
 ) -> tuple[Imported, Distribution]:
     report = ImportReport(said)
     values = read_distribution(root, report)
-    folder = Path() if source is None else source.parent
-    named = values.scenario.replace("\\", "/")
-    problem = Reach(folder, (*folders.maps, *folders.catalogs)).problem(named, (folder,))
-    if problem:
-        raise Refused(f"its scenario {named!r} is not read: {problem}", values.place)
-    path = folder / named
-    template = _bytes_of(path, values.place, f"its scenario {named!r}")
+    path = scenario_of(source, values, folders)
+    template = _bytes_of(path, values.place, f"its scenario {values.scenario!r}")
     try:
-        values.constrain(_root(template))
+        values.constrain(_root(template), [each for each in kept if each in values.open])
         found = import_document(
             template,
             path.name,

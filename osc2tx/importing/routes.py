@@ -102,7 +102,7 @@ class Routes(Reader):
                 if reference not in self._lanes:  # it has been in its lane since the start
                     on_road = self._places.courses.along_road(node, body)
                 own = [] if on_road else self._seen_from(body, way)
-        if any(text.startswith("$") for each in node.element.walk() for _, text in each.attributes):
+        if self._places.courses.is_nominal(node):
             node.approximate("the trajectory is that of its nominal values")
         stamps = [literal(round(time, 6), TIME) for time, _ in way] if timed else []
         offset = self._values.quantity(node, "initialDistanceOffset", LENGTH)

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from osc2tx.importing.cursor import Node
 from osc2tx.importing.names import Names, snake
-from osc2tx.importing.program import declaration
+from osc2tx.importing.program import Declared
 from osc2tx.importing.values import Values
 from osc2tx.xosc.element import Unresolved
 from osc2tx_runtime import ScenarioError
@@ -29,7 +29,7 @@ class TrafficLights:
         self._signals = None if road_map is None else Signals(road_map)
         self._values, self._names = values, names
         self._declared: dict[str, str] = {}
-        self.lines: list[str] = []
+        self.lines: list[Declared] = []
         self.is_switched = False
 
     def switch(self, node: Node) -> str:
@@ -74,5 +74,5 @@ class TrafficLights:
         if signal not in self._declared:
             name = self._names.new("", kind="traffic light", base=snake(f"light_{signal}"))
             self._declared[signal] = name
-            self.lines += declaration(name, "traffic_light", [f'it.map_id == "{signal}"'])
+            self.lines.append(Declared(name, "traffic_light", [f'it.map_id == "{signal}"']))
         return self._declared[signal]

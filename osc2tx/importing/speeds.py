@@ -237,7 +237,8 @@ class Speeds(Reader):
             f"lane(same_as: {reference})",
             f"position({where}, {side}: {reference})",
         ]
-        if abs(own.place.offset) > 1e-9:
+        is_aside = abs(own.place.offset) > 1e-9
+        if is_aside or self._places.beside.varies_aside(own_said):
             spot = (
                 self._places.beside.at_gap(node, own_said, said, way, ahead=ahead)
                 if at_start
@@ -246,6 +247,7 @@ class Speeds(Reader):
             if spot is not None:
                 call = f"{actor.name}.assign_position({spot.argument})"
                 return Statement(call, length=0.0)
+        if is_aside:
             node.approximate("it is in the middle of its lane after it was put there")
         return Statement(f"{actor.name}.assign_position()", modifiers=modifiers, length=0.0)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 
 from osc2tx.importing.actions import Actions
 from osc2tx.importing.cast import Cast
@@ -129,10 +129,14 @@ class Starts:
         """Whether an entity is put anywhere, or does anything."""
         return said in self._spots or said in self._paths or bool(self._others.get(said))
 
-    def starts(self, places: Places) -> dict[str, tuple[str, int, float]]:
+    def starts(self, places: Places, placed: Collection[str]) -> dict[str, tuple[str, int, float]]:
         """Return the lanes in which actors are put, with the s (m) along their roads.
 
         Of those that would be too near to others only the first one counts.
+
+        Args:
+            places: Where actors are.
+            placed: Actors that the scenario puts beside others later.
         """
         found = {
             said: places.bodies[said].place
@@ -141,7 +145,7 @@ class Starts:
         }
         taken: dict[str, tuple[str, int, float]] = {}
         for said, place in found.items():
-            if place is None:
+            if place is None or self._cast.actors[said].name in placed:
                 continue
             near = (s for road, _, s in taken.values() if road == place.road)
             if all(abs(s - place.s) > ROOM for s in near):

@@ -117,6 +117,9 @@ class Synchrony(Reader):
             direction = road_map.travel_direction(place.road, body.place.lane) * body.along
             direction *= 1 if body.v >= 0.0 else -1
             at = literal(place.s, LENGTH)
+            given = node.one("TargetPositionMaster").inner
+            if given.tag == "LanePosition" and self._values.varies(given, "s"):
+                at = self._values.quantity(given, "s", LENGTH).text
             speed = f"{master}.speed" if body.v >= 0.0 else f"(-1) * {master}.speed"
             if direction > 0:
                 return f"{master}.get_s_coord() >= {at} - {ahead} * {speed}"

@@ -23,7 +23,7 @@ from osc2tx.importing.dimensions import (
     short,
 )
 from osc2tx.importing.distributions import Open
-from osc2tx.importing.document import Document
+from osc2tx.importing.document import Document, read_in
 from osc2tx.importing.expressions import (
     Expression,
     Name,
@@ -45,7 +45,8 @@ class Values:
     """The values of a document, expressions over its parameters.
 
     Attributes:
-        parameters: By their names in the document.
+        document: The document.
+        parameters: By their names there.
         aliases: Parameters that are others in another unit, with these.
         allowed: Gives the only values that a parameter may have; `None`: others are possible.
     """
@@ -53,8 +54,9 @@ class Values:
     def __init__(
         self, document: Document, names: Names, open_: Mapping[str, Open] | None = None
     ) -> None:
-        self._document = document
-        found = Parameters(document, names, open_ or {})
+        self.document = document
+        self._open = open_ or {}
+        found = Parameters(document, names, self._open)
         self.parameters, self.aliases = found.by_name, found.aliases
         self.allowed = found.allowed
 
@@ -72,7 +74,7 @@ class Values:
         said = self.text(reference, "entryName")
         for each in reference.children("ParameterAssignments"):
             each.use_all()
-        found = self._document.entry(reference.element)
+        found = self.document.entry(reference.element)
         if found is None:
             reference.leave_out(f"there is no entry {said} in the catalogs")
             return None
@@ -108,12 +110,26 @@ class Values:
         if text is None:
             return default
         try:
-            value = float(self._document.text_at(text.strip()))
+            value = float(self.document.text_at(text.strip()))
         except ValueError:
             raise Unresolved(f"{name}={text!r} of <{node.tag}> has no value", node.place) from None
         if not isfinite(value) and not text.strip().upper().endswith("INF"):
             raise Unresolved(f"{name}={text!r} of <{node.tag}> has no value", node.place)
         return value
+
+    def varies(self, node: Node, name: str) -> bool:
+        """Whether the value of an attribute varies from run to run."""
+        return self.varies_in(node.element.get(name) or "")
+
+    def varies_in(self, text: str) -> bool:
+        """Whether the value of a text varies from run to run."""
+        found: set[str] = set()
+        left = read_in(text)
+        while left:
+            found |= left
+            given = (self.document.declared.get(each, "") for each in left)
+            left = {name for text in given for name in read_in(text)} - found
+        return not found.isdisjoint(self._open)
 
     def fixed(self, node: Node, name: str, default: float = 0.0) -> float:
         """Return a value that the scenario cannot leave open."""
@@ -131,7 +147,7 @@ class Values:
         said = node.said(name)
         if said.startswith("$"):
             node.approximate(f"{name} keeps the nominal value of `{said}`")
-        return self._document.text_at(said)
+        return self.document.text_at(said)
 
     def of_parameter(self, parameter: Parameter) -> str:
         """Return the value of a declaration."""
@@ -139,7 +155,7 @@ class Values:
         if isinstance(parameter.expression, Number):
             return self.in_unit(parameter.expression.value, parameter)
         said = next(key for key, each in self.parameters.items() if each is parameter)
-        value = float(self._document.parameters[said])
+        value = float(self.document.parameters[said])
         if parameter.is_hourly:
             return self._hourly(parameter.expression).text
         return self._typed(parameter.expression, parameter.dimension, value).text

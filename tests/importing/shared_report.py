@@ -34,7 +34,8 @@ class Row(NamedTuple):
         is_checked: Whether the scenario checks.
         is_overriding: Whether an event of the scenario overrides another one.
         lines: Lines of the scenario.
-        xml_lines: Lines of the document, with those of the scenario of one with distributions.
+        xml_lines: Lines of the document; with those of the scenario that it names unless it is
+            inherited.
         detail: What is off, where and when.
     """
 
@@ -62,7 +63,7 @@ def rows(folder: Path, out: Path, filters: Sequence[str] = ()) -> Iterator[Row]:
             continue
         place = out / str(number)  # each has settings of its own
         results, refused = import_all([path], place, Folders(maps), force=True)
-        yield from (_row(file, path, each) for each in results)
+        yield from (_row(file, path, each) for each in results if each.source == path)
         if refused:
             yield Row(file, "it is refused", False, False, 0, 0)
 
@@ -76,14 +77,14 @@ def _row(file: str, path: Path, result: Result) -> Row:
         outcome = SAME if measured.is_exact else OFF
         where = f"{measured.actor} at {measured.at:.2f} s"
         detail = f"{measured.place:.2f} m: {where}; end {measured.time:.2f} s"
-    varied = result.distribution
+    named = None if result.imported.program.base else result.distribution
     return Row(
         file,
         outcome,
         not result.faults,
         "override(" in result.text,
         len(result.text.splitlines()),
-        _lines(path) + (0 if varied is None else _lines(path.parent / varied.scenario)),
+        _lines(path) + (0 if named is None else _lines(path.parent / named.scenario)),
         detail,
     )
 

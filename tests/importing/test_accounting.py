@@ -8,10 +8,10 @@ from xml.etree import ElementTree as ET
 import pytest
 
 from osc2tx.cli.import_settings import write_settings
+from osc2tx.importing.batch import Batch
 from osc2tx.importing.document import Folders, Refused
 from osc2tx.importing.importer import import_document
 from osc2tx.importing.libraries import Libraries
-from osc2tx.importing.reading import import_file
 from tests.importing.documents import (
     CAR,
     after,
@@ -206,20 +206,19 @@ def test_all_of_a_document_with_distributions_counts(values: str, tmp_path: Path
 
     def product() -> object:
         source.write_bytes(ET.tostring(root))
-        try:
-            found = import_file(source, "values", {}, Folders())
-        except Refused as error:
-            return error.reason
-        assert found is not None
-        imported, distribution = found
-        assert distribution is not None
+        found = []
+        for each in Batch(Folders()).run([source]):
+            if isinstance(each.imported, Refused):
+                return each.imported.reason
+            found.append((each.imported, each.distribution))
         out = tmp_path / "out"
         out.mkdir(exist_ok=True)
-        write_settings([found], out)
-        written = {each.name: each.read_bytes() for each in sorted(out.iterdir())}
-        for each in out.iterdir():
-            each.unlink()
-        return imported.text, imported.report.to_json(), written
+        write_settings(found, out)
+        written = {file.name: file.read_bytes() for file in sorted(out.iterdir())}
+        for file in out.iterdir():
+            file.unlink()
+        reports = [(imported.text, imported.report.to_json()) for imported, _ in found]
+        return reports, written
 
     assert not silent(root, product)
 

@@ -71,7 +71,9 @@ def test_a_distribution_is_a_campaign(tmp_path: Path) -> None:
     out = tmp_path / "out"
     assert command("import", source, "-o", out).return_value == 0
     scenario = (out / "values.osc").read_text(encoding="utf-8")
-    assert "keep(it in [50kph..70kph])" in scenario
+    assert "import speeds\n\nscenario values inherits speeds:" in scenario
+    assert scenario.endswith("    keep(speed in [50kph..70kph])\n")
+    assert "    speed: speed = 72kph\n" in (out / "speeds.osc").read_text(encoding="utf-8")
     rows = (out / "values.csv").read_text(encoding="utf-8")
     assert rows.split() == ["speed", "50kph", "60kph", "70kph"]
     assert 'sampler = "table:values.csv"' in (out / "osc2tx.toml").read_text(encoding="utf-8")
