@@ -11,9 +11,9 @@ from osc2tx.importing.document import Document
 from osc2tx.importing.effects import Effect, Readings
 from osc2tx.importing.offsets import Offsets
 from osc2tx.importing.places import Places
-from osc2tx.importing.program import Statement
 from osc2tx.importing.routes import Routes
 from osc2tx.importing.speeds import Speeds
+from osc2tx.importing.statements import Statement, call
 from osc2tx.importing.surroundings import Surroundings
 from osc2tx.importing.synchrony import Synchrony
 from osc2tx.importing.values import Values
@@ -93,11 +93,11 @@ class Actions:
 
     def _coupling(self, node: Node, actor: Actor) -> Effect:
         """Return what couples a trailer, or lets it go."""
-        call = "disconnect_trailer()"
+        coupling = call(actor.name, "disconnect_trailer")
         if node.tag == "ConnectTrailerAction":
             said = node.said("trailerRef")
             trailer = self._actors.get(said)
             if trailer is None:
                 raise Unresolved(f"there is no entity {said}", node.place)
-            call = f"connect_trailer(trailer: {trailer.name})"
-        return Effect(Statement(f"{actor.name}.{call}", length=0.0), actor.name)
+            coupling = call(actor.name, "connect_trailer", trailer=trailer.name)
+        return Effect(Statement(coupling, length=0.0), actor.name)

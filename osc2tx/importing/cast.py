@@ -11,6 +11,7 @@ from osc2tx.importing.document import Document
 from osc2tx.importing.libraries import Shared
 from osc2tx.importing.names import Names, snake
 from osc2tx.importing.program import Declared, keeps
+from osc2tx.importing.statements import Call, call
 from osc2tx.importing.values import Values
 from osc2tx.xosc.element import Element, Unresolved
 from osc2tx_shared.classes import dataclass
@@ -50,15 +51,14 @@ class Actor:
     is_free: bool = False
 
     @property
-    def verb(self) -> str:
-        """The action that does what its modifiers say."""
-        verb = {"vehicle": "drive", "person": "walk"}.get(self.kind, "move")
-        return f"{self.name}.{verb}"
+    def moves(self) -> Call:
+        """The invocation that does what its modifiers say."""
+        return call(self.name, {"vehicle": "drive", "person": "walk"}.get(self.kind, "move"))
 
     @property
-    def goes_on(self) -> str:
-        """The action that goes on as the actor does."""
-        return f"{self.name}.keep_speed()"
+    def goes_on(self) -> Call:
+        """The invocation that goes on as the actor does."""
+        return call(self.name, "keep_speed")
 
 
 TRAILERS = ("trailer", "semitrailer")

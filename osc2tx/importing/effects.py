@@ -9,7 +9,7 @@ from osc2tx.importing.cast import Actor
 from osc2tx.importing.cursor import Node
 from osc2tx.importing.dimensions import ACCELERATION, LENGTH, SPEED, TIME, Dimension, Quantity
 from osc2tx.importing.places import Places
-from osc2tx.importing.program import Statement
+from osc2tx.importing.statements import Statement
 from osc2tx.importing.values import Values
 from osc2tx_shared.classes import dataclass
 

@@ -7,11 +7,20 @@ that ends by itself ends all. Where something else may last longer, events end i
 from __future__ import annotations
 
 import math
-import re
-from collections.abc import Container, Iterable, Iterator, Sequence
+from collections.abc import Container, Sequence
 
 from osc2tx.importing.effects import LATERAL, LONGITUDINAL
-from osc2tx.importing.program import Statement, composed, ended, wait
+from osc2tx.importing.statements import (
+    Call,
+    Emit,
+    Statement,
+    When,
+    call,
+    composed,
+    elapsed,
+    ended,
+    wait,
+)
 from osc2tx.importing.steps import Branch
 
 Waits = list[Statement]
@@ -20,18 +29,19 @@ Waits = list[Statement]
 
 def is_open(statement: Statement) -> bool:
     """Whether only what is around a statement ends it."""
-    if any(each.startswith("until ") for each in statement.modifiers):
+    if statement.until:
         return False
-    if statement.members is None:
-        return statement.length == math.inf
-    if statement.text == "serial":
+    if statement.does == "serial":
         return is_open(statement.members[-1])
-    return statement.text == "parallel" and all(is_open(each) for each in statement.members)
+    if statement.does == "parallel":
+        return all(is_open(each) for each in statement.members)
+    return not statement.is_composed and statement.length == math.inf
 
 
 def label_of(statement: Statement) -> str:
-    """Return the name of what happens in a statement."""
-    return statement.label or statement.text.removeprefix("emit ")
+    """Return the name of what happens in a statement; `""`: it has none."""
+    emitted = statement.does.event if isinstance(statement.does, Emit) else ""
+    return statement.label or emitted
 
 
 def ends_of(members: Sequence[Statement]) -> frozenset[str]:
@@ -39,38 +49,18 @@ def ends_of(members: Sequence[Statement]) -> frozenset[str]:
     if not members:
         return frozenset()
     last = members[-1]
-    if last.members is None or last.modifiers:
+    if not last.is_composed or last.is_qualified:
         return frozenset((label_of(last),))
-    if last.text == "serial":
+    if last.does == "serial":
         return ends_of(last.members)
-    if last.text != "parallel":
+    if last.does != "parallel":
         return frozenset()
     inner = [ends_of([each]) for each in last.members if not is_open(each)]
     return frozenset(label for each in inner for label in each) if all(inner) else frozenset()
 
 
-_SECONDS = re.compile(r"(?:wait elapsed\(|\bduration: )(\d+\.?\d*)s\)$")
-
-
-def seconds(statements: Sequence[Statement]) -> float | None:
-    """Return how long statements take one after the other, if their texts say it as numbers."""
-    times = [_seconds_of(each) for each in statements]
-    return None if None in times else sum(filter(None, times))
-
-
-def _seconds_of(statement: Statement) -> float | None:
-    if statement.members is not None:
-        if statement.text != "serial" or statement.modifiers:
-            return None
-        return seconds(statement.members)
-    found = _SECONDS.search(statement.text)
-    if statement.modifiers or found is None:
-        return statement.length if statement.length == 0.0 else None
-    return float(found[1])
-
-
 def without_events(
-    branches: Sequence[Branch], endings: Sequence[Waits], others: Iterable[str]
+    branches: Sequence[Branch], endings: Sequence[Waits]
 ) -> tuple[list[Branch], list[Waits]]:
     """Return branches and ends without the events that only ends wait for.
 
@@ -79,25 +69,19 @@ def without_events(
     Args:
         branches: What happens.
         endings: What ends the scenario, each in another way.
-        others: Other texts in which events may be named.
     """
     left, found = list(branches), [list(each) for each in endings]
-    texts = list(others)
     for branch in branches:
         event = _emitted_by(branch)
         if event is None:
             continue
-        waited = re.compile(rf"@{event}\b")
-        elsewhere = [text for each in left for text in texts_of(each.members)] + texts
-        begins = [each for each in found if each and each[0].text == f"wait @{event}"]
-        rest = [text for each in found for text in texts_of(each[1:] if each in begins else each)]
-        labels = {each.label for each in branch.members if each.label}
-        named = re.compile("|".join(rf"@{label}\b" for label in labels) or r"(?!)")
-        if not begins or any(waited.search(text) or named.search(text) for text in elsewhere):
+        begins = [each for each in found if each and is_event(each[0], event)]
+        rest = [each[1:] if each in begins else each for each in found]
+        others = [*rest, *(each.members for each in left)]
+        own = {event, *(each.label for each in branch.members if each.label)}
+        if not begins or any(own & each.names for members in others for each in members):
             continue
-        if any(waited.search(text) or named.search(text) for text in rest):
-            continue
-        first = branch.members[:-1] or [wait("elapsed(0s)")]
+        first = branch.members[:-1] or [wait(elapsed("0s"))]
         if comments := branch.members[-1].comments:
             first[0].comments = [*first[0].comments, *comments]
         left.remove(branch)
@@ -105,45 +89,52 @@ def without_events(
     return left, found
 
 
+def is_event(statement: Statement, event: str) -> bool:
+    """Whether a statement waits for an event."""
+    return isinstance(statement.does, When) and statement.does.event == event
+
+
 def _emitted_by(branch: Branch) -> str | None:
     """Return the event that a branch emits when something has happened, if it does no more."""
-    *waits, last = branch.members or [Statement("")]
-    if not last.text.startswith("emit ") or branch.actors:
+    if not branch.members or branch.actors:
         return None
-    if any(each.members is not None or not each.text.startswith("wait ") for each in waits):
-        return None
-    return last.text.removeprefix("emit ")
-
-
-def texts_of(statements: Iterable[Statement]) -> Iterator[str]:
-    """Yield the texts of statements and of all in them, with their modifiers."""
-    for each in statements:
-        yield from (each.text, *each.modifiers)
-        yield from texts_of(each.members or ())
+    *waits, last = branch.members
+    is_waited = all(isinstance(each.does, When) for each in waits)
+    return last.does.event if isinstance(last.does, Emit) and is_waited else None
 
 
 def placed_beside(statement: Statement) -> set[str]:
     """Return the actors that a statement puts beside others."""
-    inner = (name for each in statement.members or () for name in placed_beside(each))
-    actor = statement.text.removesuffix(".assign_position()")
-    return {*inner, *([actor] if statement.modifiers and actor != statement.text else [])}
+    does = statement.does
+    found = {name for each in statement.members for name in placed_beside(each)}
+    if isinstance(does, Call) and does.action == "assign_position" and statement.modifiers:
+        found.add(does.actor)
+    return found
 
 
 def first_of(endings: Sequence[Waits]) -> Waits:
     """Return what waits for the first of several ends; what they begin with alike stands once."""
     if any(not each for each in endings):
         return []
-    groups: dict[str, list[Waits]] = {}
+    groups: list[list[Waits]] = []
     for each in endings:
-        head = each[0]
-        groups.setdefault(head.text if head.members is None else repr(head), []).append(each)
+        group = next((other for other in groups if _is_same(other[0][0], each[0])), None)
+        if group is None:
+            groups.append([each])
+        else:
+            group.append(each)
     chains = [
         group[0] if len(group) == 1 else [group[0][0], *first_of([each[1:] for each in group])]
-        for group in groups.values()
+        for group in groups
     ]
     if len(chains) == 1:
         return chains[0]
     return [composed("one_of", [composed("serial", each) for each in chains])]
+
+
+def _is_same(one: Statement, other: Statement) -> bool:
+    """Whether statements are the same, comments and labels of plain ones apart."""
+    return one.does == other.does if not one.is_composed else one == other
 
 
 def ends_with(branch: Branch, waits: Sequence[Statement]) -> Waits | None:
@@ -151,17 +142,19 @@ def ends_with(branch: Branch, waits: Sequence[Statement]) -> Waits | None:
     if not waits:
         return None
     first, rest = waits[0], list(waits[1:])
-    ends, delays = set(), set()
-    for each in first.members or () if first.text == "parallel" else [first]:
-        marks = each.members if each.text == "serial" and each.members is not None else [each]
-        ends.add(marks[0].text)
-        delays.add(tuple(mark.text for mark in marks[1:]))
+    marks = [
+        each.members if each.does == "serial" else [each]
+        for each in (first.members if first.does == "parallel" else [first])
+    ]
+    delays = {tuple(each.does for each in mark[1:]) for mark in marks}
     if len(delays) != 1:
         return None
     rest = [*map(Statement, delays.pop()), *rest]
-    is_behind = ends == {f"wait @{label}.end" for label in ends_of(branch.members)}
-    is_time = all(each.text.startswith("wait elapsed(") for each in rest)
-    return rest if is_behind and len(rest) <= 1 and is_time else None
+    ends = {f"{label}.end" for label in ends_of(branch.members)}
+    is_behind = all(any(is_event(mark[0], end) for end in ends) for mark in marks)
+    is_all = all(any(is_event(mark[0], end) for mark in marks) for end in ends)
+    is_time = all(isinstance(each.does, When) and each.does.time for each in rest)
+    return rest if is_behind and is_all and len(rest) <= 1 and is_time else None
 
 
 def go_on_behind(branch: Branch, branches: Sequence[Branch], vehicles: Container[str]) -> Waits:
@@ -175,17 +168,17 @@ def go_on_behind(branch: Branch, branches: Sequence[Branch], vehicles: Container
     found: Waits = []
     others = {slot for each in branches if each is not branch for slot in each.slots}
     for actor in sorted(branch.actors):
-        told = [text for text in texts_of(branch.members) if text.startswith(f"{actor}.")]
+        calls = [each for member in branch.members for each in member.calls if each.actor == actor]
         slot = (actor, LONGITUDINAL)
         first = next(each for each in branches if actor in each.actors)
         if slot not in others and (first is branch or slot in branch.slots):
-            found.append(Statement(f"{actor}.keep_speed()", length=math.inf))
+            found.append(Statement(call(actor, "keep_speed"), length=math.inf))
         elif (
             actor in vehicles
             and (actor, LATERAL) not in others
-            and all(".change_lane(" in text and "offset" not in text for text in told)
+            and all(each.action == "change_lane" and not each.get("offset") for each in calls)
         ):
-            found.append(Statement(f"{actor}.follow_lane()", length=math.inf))
+            found.append(Statement(call(actor, "follow_lane"), length=math.inf))
         else:
             return []
     return found
@@ -193,6 +186,7 @@ def go_on_behind(branch: Branch, branches: Sequence[Branch], vehicles: Container
 
 def held_for(going: Sequence[Statement], rest: Sequence[Statement]) -> Waits:
     """Return what actors go on with for the rest of the scenario; a wait if that is nothing."""
-    if not rest or not going:
+    by = rest[0].does if rest else None
+    if not going or not isinstance(by, When):
         return list(rest)
-    return [composed("parallel", [ended(each, rest[0]) for each in going])]
+    return [composed("parallel", [ended(each, by) for each in going])]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from osc2tx.importing.cursor import Node
-from osc2tx.importing.program import LINE
+from osc2tx.importing.statements import LINE
 
 
 def header_of(header: Node, name: str) -> list[str]:

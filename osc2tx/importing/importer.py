@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 
 from osc2tx.importing.actions import Actions
@@ -233,10 +233,9 @@ class _Import:
 
     def _find_used(self, program: Program, places: Places, structure: Structure) -> None:
         """Note which parameters the scenario reads, itself or in what gives others."""
-        written = "\n".join([*program.behavior, *structure.lines])
-        words = _words(written).union(
-            *(_words(line) for each in places.points.lines for line in each.lines)
-        )
+        others = [*structure.declared, *places.points.lines]
+        written = [*program.behavior, *(line for each in others for line in each.lines)]
+        words = _words("\n".join(written))
         for parameter in reversed(self._values.parameters.values()):
             parameter.is_used = parameter.name in words
             if parameter.is_used and parameter.expression is not None:
@@ -274,7 +273,7 @@ class _Import:
             *declared.parameters(),
             *read_by(places.points.lines, words),
             *self._marks.members(words),
-            *(Declared("", line) for line in structure.lines if _is_read(line, words)),
+            *read_by(structure.declared, words),
         ]
 
     def _close(self) -> None:
@@ -303,9 +302,3 @@ class _Import:
 
 def _words(text: str) -> set[str]:
     return set(re.findall(r"\w+", text))
-
-
-def _is_read(line: str, words: Collection[str]) -> bool:
-    """Whether the scenario reads the event that a line declares; others it does."""
-    name = re.match(r"event (\w+)$", line)
-    return name is None or name[1] in words

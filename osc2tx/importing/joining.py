@@ -11,8 +11,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from osc2tx.importing.effects import LONGITUDINAL
-from osc2tx.importing.endings import ends_of, is_open, label_of, seconds
-from osc2tx.importing.program import Statement, composed, wait
+from osc2tx.importing.endings import ends_of, is_open, label_of
+from osc2tx.importing.statements import Call, Statement, composed, elapsed, seconds, wait
 from osc2tx.importing.steps import Branch
 from osc2tx_shared.classes import dataclass
 
@@ -41,7 +41,7 @@ class Join:
 
 
 def joined(
-    branches: Sequence[Branch], joins: Sequence[Join], going_on: Mapping[str, str]
+    branches: Sequence[Branch], joins: Sequence[Join], going_on: Mapping[str, Call]
 ) -> list[Branch]:
     """Return branches of which those that wait for the ends of others stand behind them.
 
@@ -66,7 +66,7 @@ def joined(
 
 
 def _merged(
-    branches: Sequence[Branch], joins: Sequence[Join], going_on: Mapping[str, str]
+    branches: Sequence[Branch], joins: Sequence[Join], going_on: Mapping[str, Call]
 ) -> tuple[Branch, list[Branch]] | None:
     """Return branches as one in which the joins stand behind the others, and those others."""
     labels = joins[0].delays.keys()
@@ -95,7 +95,7 @@ def _merged(
 
 
 def _held(
-    mine: Sequence[Branch], branches: Sequence[Branch], going_on: Mapping[str, str]
+    mine: Sequence[Branch], branches: Sequence[Branch], going_on: Mapping[str, Call]
 ) -> dict[str, Statement]:
     """Return what the actors that only some branches move go on with, by actor."""
     others = {actor for each in branches if each not in mine for actor in each.actors}
@@ -131,7 +131,7 @@ def _side_by_side(
 
 
 def _waits(delay: str) -> list[Statement]:
-    return [wait(f"elapsed({delay})")] if delay else []
+    return [wait(elapsed(delay))] if delay else []
 
 
 def _followed(members: Sequence[Statement], delays: Delays) -> list[Statement] | None:
@@ -142,7 +142,7 @@ def _followed(members: Sequence[Statement], delays: Delays) -> list[Statement] |
     for index, member in enumerate(members):
         label = label_of(member)
         rest = members[index + 1 :]
-        if rest and any(delays.get(each) for each in _labels_in(member.members or ())):
+        if rest and any(delays.get(each) for each in _labels_in(member.members)):
             return None
         if label in delays:
             waits = _waits(delays[label])
@@ -153,7 +153,7 @@ def _followed(members: Sequence[Statement], delays: Delays) -> list[Statement] |
                 return None
             behind = composed("parallel", [composed("serial", tail), *waits])
             return [*members[: index + 1], *([behind] if waits else tail)]
-        if not rest and member.members is not None:
+        if not rest and member.is_composed:
             return _followed_inside(members, member, delays)
     return None
 
@@ -162,12 +162,11 @@ def _followed_inside(
     members: Sequence[Statement], last: Statement, delays: Delays
 ) -> list[Statement] | None:
     """Return members of which the last is a composition with the events."""
-    assert last.members is not None
     ends = ends_of([last])
     if ends and ends <= delays.keys() and not any(delays.values()):
         return list(members)
     timed = [each for each in last.members if not is_open(each)]
-    if last.text != "parallel" or last.modifiers or last.label or len(timed) != 1:
+    if last.does != "parallel" or last.is_qualified or last.label or len(timed) != 1:
         return None
     inner = _followed(timed[0].members or [timed[0]], delays)
     if inner is None:
@@ -179,4 +178,4 @@ def _followed_inside(
 def _labels_in(members: Sequence[Statement]) -> Iterator[str]:
     for each in members:
         yield label_of(each)
-        yield from _labels_in(each.members or ())
+        yield from _labels_in(each.members)

@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import NamedTuple
 
 from osc2tx.importing.names import Names, actions_of
-from osc2tx.importing.program import INDENT
 from osc2tx.importing.report import ImportReport
+from osc2tx.importing.statements import INDENT
 from osc2tx_shared.classes import dataclass
 
 

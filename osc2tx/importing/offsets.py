@@ -9,7 +9,7 @@ from osc2tx.importing.cast import Actor
 from osc2tx.importing.cursor import Node
 from osc2tx.importing.dimensions import LENGTH, PRODUCT, SPEED, TIME, literal
 from osc2tx.importing.effects import LATERAL, PROFILES, Effect, Reader, of_dynamics
-from osc2tx.importing.program import Statement
+from osc2tx.importing.statements import Statement, call
 from osc2tx.xosc.element import Unresolved
 
 SHIFT_FACTORS = {"sinusoidal": 0.5 * math.pi**2, "linear": 0.5 * math.pi**2, "cubic": 6.0}
@@ -41,23 +41,23 @@ class Offsets(Reader):
             target.leave_out("which lane the actor is in is not known before the run")
             node.use_all()
             return None
-        arguments = []
+        arguments = {}
         if lanes == 0 and not reference:
             node.use_all()  # it is in that lane
             return None
         if lanes == 0:
-            arguments.append("side: same")
+            arguments["side"] = "same"
         else:
             if abs(lanes) > 1:
-                arguments.append(f"num_of_lanes: {abs(lanes)}")
-            arguments.append(f"side: {'left' if lanes > 0 else 'right'}")
+                arguments["num_of_lanes"] = str(abs(lanes))
+            arguments["side"] = "left" if lanes > 0 else "right"
         if reference:
-            arguments.append(f"reference: {reference}")
+            arguments["reference"] = reference
         offset = self._values.quantity(node, "targetLaneOffset", LENGTH)
         if offset.is_open or abs(offset.value) > 1e-9:
             sign = self._along(said)
             text = offset.text if sign > 0 else f"-{offset.within(PRODUCT)}"
-            arguments.append(f"offset: {text}")
+            arguments["offset"] = text
         self._offsets[said] = offset.value * self._along(said)
         dynamics = node.one("LaneChangeActionDynamics")
         shape = dynamics.text("dynamicsShape") or "sinusoidal"
@@ -67,18 +67,18 @@ class Offsets(Reader):
         length: float | None = None
         if shape == "step" or value.value <= 0.0:
             dynamics.approximate("a jump to another lane is a quick change here")
-            arguments += ["rate_profile: constant", "duration: 0.1s"]
-            return Statement(f"{actor.name}.change_lane({', '.join(arguments)})", length=0.1)
+            arguments |= {"rate_profile": "constant", "duration": "0.1s"}
+            return Statement(call(actor.name, "change_lane", **arguments), length=0.1)
         if shape == "cubic":
             dynamics.approximate("a cubic course across the road is smooth here")
         if shape == "linear":
-            arguments.append("rate_profile: constant")
+            arguments["rate_profile"] = "constant"
         if dimension == "time":
-            arguments.append(f"duration: {value.text}")
+            arguments["duration"] = value.text
             length = value.value
         elif dimension == "rate":
             if shape != "linear":
-                arguments.append("rate_profile: smooth")
+                arguments["rate_profile"] = "smooth"
                 peak = 0.5 * math.pi * value.value
                 text = (
                     f"{_number(0.5 * math.pi)} * {value.within(PRODUCT)}"
@@ -87,7 +87,7 @@ class Offsets(Reader):
                 )
             else:
                 text = value.text
-            arguments.append(f"rate_peak: {text}")
+            arguments["rate_peak"] = text
         else:
             now = self._speeds.get(said)
             if now is None or now.value <= 0.0:
@@ -95,8 +95,8 @@ class Offsets(Reader):
             else:
                 dynamics.approximate("the way of the change is that at the speed last commanded")
                 length = value.value / now.value
-                arguments.append(f"duration: {literal(round(length, 6), TIME)}")
-        return Statement(f"{actor.name}.change_lane({', '.join(arguments)})", length=length)
+                arguments["duration"] = literal(round(length, 6), TIME)
+        return Statement(call(actor.name, "change_lane", **arguments), length=length)
 
     def _along(self, said: str) -> int:
         """Return 1 for an actor in a lane along its road, -1 against it."""
@@ -169,15 +169,14 @@ class Offsets(Reader):
             time = 1.0
         elif offset.is_open:
             node.approximate("the change takes as long as that of the nominal values")
-        arguments = [f"offset: {text}", f"rate_profile: {PROFILES.get(shape, 'smooth')}"]
+        arguments = {"offset": text, "rate_profile": PROFILES.get(shape, "smooth")}
         if change > 0.0:
             fastest = change / time * (1.0 if shape == "linear" else 0.5 * math.pi)
-            arguments.append(f"rate_peak: {literal(round(fastest, 4), SPEED)}")
-        lasting = literal(round(time, 4), TIME)
-        call = f"follow_lane({', '.join(arguments)}, duration: {lasting})"
+            arguments["rate_peak"] = literal(round(fastest, 4), SPEED)
+        arguments["duration"] = literal(round(time, 4), TIME)
         if continuous:
             node.approximate("an offset that is kept ends here when it is reached")
-        return Statement(f"{actor.name}.{call}", length=time)
+        return Statement(call(actor.name, "follow_lane", **arguments), length=time)
 
     def _offset_of(self, said: str) -> float:
         """Return the offset (m) of an actor in its lane that was commanded last, to the left."""

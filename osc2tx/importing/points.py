@@ -10,6 +10,7 @@ from osc2tx.importing.dimensions import LENGTH, literal, short
 from osc2tx.importing.names import Names
 from osc2tx.importing.program import Declared
 from osc2tx.importing.starting import wrapped
+from osc2tx.importing.statements import Call, call
 from osc2tx_runtime.opendrive import LanePosition
 from osc2tx_shared.classes import dataclass
 
@@ -32,12 +33,12 @@ class Spot:
     yaw: str = ""
     turned: str = ""
 
-    @property
-    def argument(self) -> str:
-        """The argument of `assign_position`; `""`: only modifiers say the place."""
+    def assigned_to(self, actor: str) -> Call:
+        """Return the invocation that puts an actor there, with the modifiers."""
         if self.odr_point:
-            return f"odr_point: {self.odr_point}"
-        return f"position: {self.position}" if self.position else ""
+            return call(actor, "assign_position", odr_point=self.odr_point)
+        told = {"position": self.position} if self.position else {}
+        return call(actor, "assign_position", **told)
 
 
 def odr_point(road: str, lane: str, s: str, t: str) -> str:

@@ -9,7 +9,7 @@ from osc2tx.importing.cast import Actor
 from osc2tx.importing.cursor import Node
 from osc2tx.importing.dimensions import SPEED, TIME, Quantity, literal
 from osc2tx.importing.effects import Reader
-from osc2tx.importing.program import Statement, composed
+from osc2tx.importing.statements import Statement, call, composed
 from osc2tx.xosc.player.courses import with_jerk
 from osc2tx_runtime.world.actor_dimensions import CAR_LIMITS, COMFORT
 from osc2tx_runtime.world.grip.friction import ADHESION, GRAVITY
@@ -21,8 +21,8 @@ CAR = {
 }
 """The limits of a car in the world."""
 
-SHARES: Mapping[float, str] = {1.0: ", rate_profile: asap", COMFORT: ""}
-"""How a change of speed is told that uses a share of the limits of its actor.
+SHARES: Mapping[float, str] = {1.0: "asap", COMFORT: ""}
+"""The profile of a change of speed that uses a share of the limits of its actor.
 
 Half of the grip on snow is all of it on ice: the whole comes first.
 """
@@ -53,11 +53,9 @@ class Profiles(Reader):
             if not entry.has("time"):
                 changes.append(self._untimed(entry, limits, said, speed, actor))
             elif time.value == 0.0:
-                changes.append(Statement(f"{actor.name}.assign_speed({speed.text})", length=0.0))
+                changes.append(Statement(call(actor.name, "assign_speed", speed.text), length=0.0))
             else:
-                arguments = f"target: {speed.text}, rate_profile: constant, duration: {time.text}"
-                call = f"{actor.name}.change_speed({arguments})"
-                changes.append(Statement(call, length=time.value))
+                changes.append(self._change(actor, speed, "constant", time.text, time.value))
             self._speeds[said] = speed
         if limits is not None:
             limits.use_all()
@@ -67,17 +65,17 @@ class Profiles(Reader):
         self, entry: Node, limits: Node | None, said: str, speed: Quantity, actor: Actor
     ) -> Statement:
         """Return a change of the speed that only limits of the acceleration tell."""
-        call, before = f"{actor.name}.change_speed(target: {speed.text}", self._speeds.get(said)
+        before = self._speeds.get(said)
         told = {name: self._values.nominal(limits, name, math.inf) for name in CAR if limits}
         body = self._places.bodies.get(said)
         own = CAR if body is None else body.limits
         for share, profile in SHARES.items():
             roads = (math.inf, *(each * GRAVITY for each in ADHESION.values()))
             if any(told == _held(each, share, grip) for each in (CAR, own) for grip in roads):
-                return Statement(f"{call}{profile})")
+                return self._change(actor, speed, profile)
         if body is None or before is None or before.value == speed.value:
             entry.approximate("the speed changes with the usual accelerations of the world")
-            return Statement(f"{call})")
+            return self._change(actor, speed)
         entry.approximate("the speed changes in the time that its limits give, but not as they say")
         peak, jerk = (
             min(told.get(name, math.inf), body.limits[name])
@@ -89,4 +87,17 @@ class Profiles(Reader):
         _, time = with_jerk(before.value, speed.value, peak, jerk, 0.0)
         duration = literal(round(time, 6), TIME)
         shape = "constant" if 4.0 * peak / jerk < time else "smooth"  # ramps are short or all of it
-        return Statement(f"{call}, rate_profile: {shape}, duration: {duration})", length=time)
+        return self._change(actor, speed, shape, duration, time)
+
+    @staticmethod
+    def _change(
+        actor: Actor,
+        speed: Quantity,
+        profile: str = "",
+        duration: str = "",
+        length: float | None = None,
+    ) -> Statement:
+        """Return a change of the speed; `""` stands for what is not told of it."""
+        told = {"target": speed.text, "rate_profile": profile, "duration": duration}
+        arguments = {name: text for name, text in told.items() if text}
+        return Statement(call(actor.name, "change_speed", **arguments), length=length)

@@ -1,163 +1,19 @@
-"""The text of a scenario, as statements."""
+"""The file of a scenario: its members, its parameters, what happens."""
 
 from __future__ import annotations
 
-import math
 import re
-from collections.abc import Collection, Container, Iterable, Iterator, Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import field, replace
-from itertools import pairwise
-from textwrap import wrap
-from typing import Literal, TypeAlias, cast
 
+from osc2tx.importing.statements import INDENT, LINE, Statement, comment_lines
 from osc2tx_shared.classes import dataclass
 
-Kind: TypeAlias = Literal["serial", "parallel", "one_of"]
 WIDTH = 92
-INDENT = "    "
 KEPT = WIDTH - len("keep()")
-LINE = 100
-"""Characters of a line."""
 ROAD = "road"
 """The name of the map in scenarios."""
-
-
-@dataclass
-class Statement:
-    """A member of `do`: an invocation, a directive, or a composition.
-
-    Attributes:
-        text: The statement; the word of a composition.
-        label: Its name; `""`: it has none.
-        modifiers: What stands below `with:`.
-        members: Members of a composition; `None` for others.
-        comments: Lines above it.
-        length: Seconds that it takes, if that is known; `inf`: it ends with what is around it.
-    """
-
-    text: str
-    label: str = ""
-    modifiers: list[str] = field(default_factory=list)
-    members: list[Statement] | None = None
-    comments: list[str] = field(default_factory=list)
-    length: float | None = None
-
-    def lines(self, indent: int) -> Iterator[str]:
-        """Yield its lines."""
-        margin = INDENT * indent
-        yield from (f"{margin}{line}" for line in comment_lines(self.comments, indent))
-        head = f"{self.label}: {self.text}" if self.label else self.text
-        if self.members is not None:
-            yield f"{margin}{head}:"
-            for member in self.members:
-                yield from member.lines(indent + 1)
-            if self.modifiers:
-                yield f"{margin}with:"
-        else:
-            yield f"{margin}{head} with:" if self.modifiers else f"{margin}{head}"
-        yield from (f"{margin}{INDENT}{modifier}" for modifier in self.modifiers)
-
-
-def composed(kind: Kind, members: Sequence[Statement]) -> Statement:
-    """Return members one after the other or side by side; a single one stands for itself."""
-    flat: list[Statement] = []
-    members = settled(members) if kind == "serial" else members
-    for member in members:
-        inner = member.members if member.text == kind else None
-        if inner and not member.label and not member.modifiers:
-            first = replace(inner[0], comments=[*member.comments, *inner[0].comments])
-            flat += [first, *inner[1:]]
-        else:
-            flat.append(member)
-    if kind == "serial":
-        pairs = pairwise([*flat, Statement("")])
-        flat = [each for each, following in pairs if not _goes_on_as(each, following)]
-    if len(flat) == 1:
-        return flat[0]
-    return Statement(kind, members=flat, length=_length(kind, flat))
-
-
-def _goes_on_as(statement: Statement, following: Statement) -> bool:
-    """Whether an actor that keeps its speed for a time goes on with that, without an end."""
-    is_plain = not (statement.label or statement.modifiers or statement.comments)
-    is_held = following.text.endswith(".keep_speed()") and not following.label
-    return is_plain and is_held and statement.text.startswith(f"{following.text[:-1]}duration: ")
-
-
-def without_labels(statement: Statement, kept: Container[str]) -> Statement:
-    """Return a statement without the labels that nothing refers to, with fewer compositions."""
-    label = statement.label if statement.label in kept else ""
-    if statement.members is None:
-        return statement if label == statement.label else replace(statement, label=label)
-    members = [without_labels(each, kept) for each in statement.members]
-    found = composed(cast(Kind, statement.text), members)
-    if not (label or statement.modifiers or statement.comments):
-        return found
-    if found.label or found.modifiers or found.comments:
-        found = replace(statement, members=members)
-    return replace(
-        found,
-        label=label,
-        modifiers=statement.modifiers,
-        comments=statement.comments,
-        length=statement.length,
-    )
-
-
-def settled(members: Sequence[Statement]) -> list[Statement]:
-    """Return members of a `serial` in which what never ends by itself lasts up to the next wait.
-
-    What comes behind something that never ends, and waits for nothing, never begins.
-    """
-    found: list[Statement] = []
-    for member in members:
-        last = found[-1] if found else None
-        if last is None or last.length != math.inf:
-            found.append(member)
-        elif member.text.startswith("wait ") and member.members is None:
-            found[-1] = ended(last, member)
-        else:
-            break
-    return found
-
-
-def ended(statement: Statement, by: Statement) -> Statement:
-    """Return something that never ends by itself up to what a wait waits for."""
-    until = by.text.removeprefix("wait ")
-    if statement.text.endswith(".keep_speed()") and until.startswith("elapsed("):
-        duration = until.removeprefix("elapsed(")
-        return replace(statement, text=f"{statement.text[:-1]}duration: {duration}", length=None)
-    return replace(statement, modifiers=[*statement.modifiers, f"until {until}"], length=None)
-
-
-def _length(kind: Kind, members: Sequence[Statement]) -> float | None:
-    """Return how long members take; what has no end of its own lasts with what is beside it."""
-    lengths = [member.length for member in members]
-    if kind == "serial":
-        known = [length for length in lengths if length is not None]
-        if lengths[-1:] == [math.inf]:
-            return math.inf
-        return sum(known) if len(known) == len(lengths) else None
-    bounded = [length for length in lengths if length != math.inf]
-    known = [length for length in bounded if length is not None]
-    if not bounded:
-        return math.inf if lengths else 0.0
-    return max(known) if len(known) == len(bounded) else None
-
-
-def wait(text: str) -> Statement:
-    """Return a wait."""
-    return Statement(f"wait {text}")
-
-
-def comment_lines(comments: Iterable[str], indent: int = 1) -> Iterator[str]:
-    """Yield comments as lines of a text; one with a line that is too long is a paragraph."""
-    width = LINE - len(INDENT) * indent - len("# ")
-    for comment in comments:
-        lines = [" ".join(line.split()) for line in comment.splitlines()]
-        if any(len(line) > width for line in lines):
-            lines = wrap(" ".join(lines), width, break_on_hyphens=False)
-        yield from (f"# {line}" for line in lines if line)
+EVENT = "event"
 
 
 @dataclass
@@ -166,9 +22,9 @@ class Declared:
 
     Attributes:
         name: Its name; `""`: it has none.
-        type: Its type; all of the line if it has no name.
+        type: Its type; all of the line if it has no name; `event`: it is one.
         constraints: Conditions on it.
-        value: Its value; `""`: none.
+        value: Its value, or what an event is; `""`: none.
         comments: Lines above it, or one behind it.
         varied: What follows its name in the condition that says what it may be in runs.
     """
@@ -197,6 +53,8 @@ class Declared:
     def _declaration(self) -> list[str]:
         if not self.name:
             return [self.type]
+        if self.type == EVENT:
+            return [f"event {self.name} is {self.value}" if self.value else f"event {self.name}"]
         head = f"{self.name}: {self.type}" + (f" = {self.value}" if self.value else "")
         if self.value and len(head) > LINE - len(INDENT) and not self.value.endswith(")"):
             head = f"{self.name}: {self.type} = ({self.value})"  # lines break between brackets

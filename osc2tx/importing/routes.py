@@ -11,11 +11,14 @@ from osc2tx.importing.cursor import Node
 from osc2tx.importing.dimensions import LENGTH, TIME, Quantity, literal
 from osc2tx.importing.effects import BOTH, LATERAL, Effect, Reader
 from osc2tx.importing.points import Spot
-from osc2tx.importing.program import Statement
+from osc2tx.importing.statements import Call, Statement, call
 from osc2tx.xosc.player.bodies import Body, Pose
 from osc2tx.xosc.player.shapes import CHORD, Way
+from osc2tx_shared.classes import replace
 
 ORIGIN = Pose(0.0, 0.0, 0.0)
+REPLAYS = ("replay_path", "replay_trajectory")
+"""Actions of an actor that is on a course at once, wherever it was before."""
 
 
 class Routes(Reader):
@@ -34,12 +37,11 @@ class Routes(Reader):
     @staticmethod
     def moved(spot: Spot, actor: Actor) -> Iterator[Effect]:
         """Return what puts an actor at a place at once."""
-        call = f"{actor.name}.assign_position({spot.argument})"
-        statement = Statement(call, modifiers=list(spot.modifiers), length=0.0)
-        yield Effect(statement, actor.name, BOTH)
+        put = spot.assigned_to(actor.name)
+        yield Effect(Statement(put, modifiers=spot.modifiers, length=0.0), actor.name, BOTH)
         if spot.turned:
-            call = f"{actor.name}.assign_orientation({spot.turned})"
-            yield Effect(Statement(call, length=0.0), actor.name, BOTH)
+            turn = call(actor.name, "assign_orientation", spot.turned)
+            yield Effect(Statement(turn, length=0.0), actor.name, BOTH)
 
     def assigned(self, node: Node, said: str, actor: Actor) -> Statement | None:
         """Return what takes an actor along a route."""
@@ -55,7 +57,7 @@ class Routes(Reader):
         if self._places.courses.leads_on(*stops):
             return None  # it goes there by itself
         way = self._places.points.route(stops, actor.name)
-        return Statement(f"{actor.verb}()", modifiers=[f"along({way})"])
+        return Statement(actor.moves, modifiers=[f"along({way})"])
 
     def effects(self, node: Node, said: str, actor: Actor, *, at_start: bool) -> Iterator[Effect]:
         """Return what a routing action does."""
@@ -69,12 +71,8 @@ class Routes(Reader):
             if spot is None or not spot.odr_point:
                 return
             node.approximate("the path to the position is up to the simulator")
-            target = f"target_odr: {spot.odr_point}"
-            yield Effect(
-                Statement(f"{actor.name}.change_position({target}, on_road_network: true)"),
-                actor.name,
-                BOTH,
-            )
+            told = {"target_odr": spot.odr_point, "on_road_network": "true"}
+            yield Effect(Statement(call(actor.name, "change_position", **told)), actor.name, BOTH)
             return
         if node.tag == "FollowTrajectoryAction":
             yield from self._trajectory(node, said, actor, at_start=at_start)
@@ -110,21 +108,22 @@ class Routes(Reader):
         is_whole = not offset.is_open and offset.value == 0.0
         if on_road and is_whole:
             made = self._places.points.relative_on_road(_shape(stamps), on_road, stamps, actor.name)
-            call = self._from_there(made, stamps, reference, "road_relative")
+            follows = self._from_there(made, stamps, actor, reference, "road_relative")
         elif own and len(from_here) == len(own) and is_whole:
             made = self._places.points.relative(_shape(stamps), from_here, stamps, actor.name)
-            call = self._from_there(made, stamps, reference or said, "object_relative")
+            beside = reference or said
+            follows = self._from_there(made, stamps, actor, beside, "object_relative")
         else:
             # behind a corner where the actor is, the way there is its matter
             comes_to_it = own[:1] == [(0.0, 0.0)] and len(own) == len(way) and not timed
             poses = [pose for _, pose in way][int(comes_to_it and len(own) > 2) :]
-            call = self._absolute(node, poses, stamps, offset, actor)
+            follows = self._absolute(node, poses, stamps, offset, actor)
             if len(poses) < len(way):
-                call = call.replace(".replay_", ".follow_", 1)
+                follows = replace(follows, action=f"follow_{_shape(stamps)}")
         self._note(node, timed=timed)
         length = way[-1][0] if timed else None
         slots = BOTH if timed else frozenset((LATERAL,))
-        yield Effect(Statement(f"{actor.name}{call}", length=length), actor.name, slots)
+        yield Effect(Statement(follows, length=length), actor.name, slots)
         self._lanes[said] = None
 
     def _since_its_start(self, node: Node, way: Way) -> Way:
@@ -184,10 +183,12 @@ class Routes(Reader):
         seen = [(pose.x - x, pose.y - y) for _, pose in way]
         return [(round(dx * cos + dy * sin, 6), round(dy * cos - dx * sin, 6)) for dx, dy in seen]
 
-    def _from_there(self, made: str, stamps: Sequence[str], reference: str, transform: str) -> str:
-        """Return the call for a trajectory from where its actor, or another one, is."""
-        told = f"relative: {made}, reference: {self._actors[reference].name}"
-        return f".replay_{_shape(stamps)}({told}, transform: {transform})"
+    def _from_there(
+        self, made: str, stamps: Sequence[str], actor: Actor, reference: str, transform: str
+    ) -> Call:
+        """Return the invocation for a trajectory from where its actor, or another one, is."""
+        told = {"relative": made, "reference": self._actors[reference].name}
+        return call(actor.name, f"replay_{_shape(stamps)}", **told, transform=transform)
 
     def _absolute(
         self,
@@ -196,8 +197,8 @@ class Routes(Reader):
         stamps: Sequence[str],
         offset: Quantity,
         actor: Actor,
-    ) -> str:
-        """Return the call for a trajectory in the world."""
+    ) -> Call:
+        """Return the invocation for a trajectory in the world."""
         kind, on_road = "_odr_points", ", on_road_network: false"
         points = self._places.courses.corners(node)
         if len(points) != len(poses):
@@ -208,9 +209,11 @@ class Routes(Reader):
         told = f"points: [{', '.join(points)}], interpolation: straight_line{on_road}"
         if stamps:
             told = f"{told}, time_stamps: [{', '.join(stamps)}]"
-            return f".replay_trajectory(absolute: road.create_trajectory{kind}({told}))"
-        begin = f", start_offset: {offset.text}" if offset.is_open or offset.value else ""
-        return f".replay_path(absolute: road.create_path{kind}({told}){begin})"
+            way = f"road.create_trajectory{kind}({told})"
+            return call(actor.name, "replay_trajectory", absolute=way)
+        begin = {"start_offset": offset.text} if offset.is_open or offset.value else {}
+        way = f"road.create_path{kind}({told})"
+        return call(actor.name, "replay_path", absolute=way, **begin)
 
 
 def _shape(stamps: Sequence[str]) -> str:

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from osc2tx.importing.cursor import Node
 from osc2tx.importing.names import Names, snake
 from osc2tx.importing.program import Declared
+from osc2tx.importing.statements import Call, call
 from osc2tx.importing.values import Values
 from osc2tx.xosc.element import Unresolved
 from osc2tx_runtime import ScenarioError
@@ -32,15 +33,15 @@ class TrafficLights:
         self.lines: list[Declared] = []
         self.is_switched = False
 
-    def switch(self, node: Node) -> str:
-        """Return the call that lets a light show something.
+    def switch(self, node: Node) -> Call:
+        """Return the invocation that lets a light show something.
 
         Raises:
             Unresolved: The map has no such light, or its lamps have no such states.
         """
         light, states = self._read(node)
         self.is_switched = True
-        return f"{CONTROLLER}.set_state(traffic_light: {light}, state: {states})"
+        return call(CONTROLLER, "set_state", traffic_light=light, state=states)
 
     def shows(self, node: Node) -> str:
         """Return the condition that a light shows something.

@@ -21,8 +21,8 @@ from osc2tx.importing.dimensions import (
 )
 from osc2tx.importing.effects import LONGITUDINAL, PROFILES, Effect, Reader, Readings, of_dynamics
 from osc2tx.importing.profiles import Profiles
-from osc2tx.importing.program import Statement, composed
 from osc2tx.importing.starting import is_ahead
+from osc2tx.importing.statements import Statement, call, composed
 from osc2tx.xosc.element import Unresolved
 
 
@@ -62,7 +62,7 @@ class Speeds(Reader):
             kept = self._as_fast_as(node, target_node, dynamics, actor)
             if shape != "step":
                 return kept
-            assigned = Statement(f"{actor.name}.assign_speed({target.text})", length=0.0)
+            assigned = Statement(call(actor.name, "assign_speed", target.text), length=0.0)
             return composed("serial", [assigned, kept])
         standing = Quantity(literal(0.0, SPEED), 0.0)
         before = self._speeds.get(said, standing)
@@ -71,17 +71,17 @@ class Speeds(Reader):
         dimension = dynamics.text("dynamicsDimension") or "time"
         if shape == "step" or (dimension in ("time", "distance") and value.value == 0.0):
             dynamics.idle("the speed is there at once")
-            return Statement(f"{actor.name}.assign_speed({target.text})", length=0.0)
+            return Statement(call(actor.name, "assign_speed", target.text), length=0.0)
         if shape == "cubic":
             dynamics.approximate("a cubic course of the speed is smooth here")
-        arguments = f"target: {target.text}, rate_profile: {PROFILES.get(shape, 'constant')}"
-        call = f"{actor.name}.change_speed"
+        arguments = {"target": target.text, "rate_profile": PROFILES.get(shape, "constant")}
         limit = self._limit_within(said, before, target, shape, value.value, dimension)
         if limit is not None:
             dynamics.approximate("the change is held to what the vehicle can do")
             value, dimension = Quantity(literal(limit, ACCELERATION), limit), "rate"
         if dimension == "time":
-            return Statement(f"{call}({arguments}, duration: {value.text})", length=value.value)
+            arguments["duration"] = value.text
+            return Statement(call(actor.name, "change_speed", **arguments), length=value.value)
         if dimension == "rate":
             if value.value == 0.0:
                 dynamics.approximate(
@@ -95,15 +95,17 @@ class Speeds(Reader):
             length = None
             if before is not None:
                 length = abs(target.value - before.value) / value.value * _peak(shape)
-            return Statement(f"{call}({arguments}, rate_peak: {value.text})", length=length)
+            arguments["rate_peak"] = value.text
+            return Statement(call(actor.name, "change_speed", **arguments), length=length)
         if before is not None and before.value + target.value > 0.0:
             time = Quantity(
                 f"2 * {value.within(PRODUCT)} / ({before.text} + {target.text})",
                 2.0 * value.value / (before.value + target.value),
             )
-            return Statement(f"{call}({arguments}, duration: {time.text})", length=time.value)
+            arguments["duration"] = time.text
+            return Statement(call(actor.name, "change_speed", **arguments), length=time.value)
         dynamics.approximate("the distance of the change is that of the usual acceleration")
-        return Statement(f"{call}(target: {target.text})")
+        return Statement(call(actor.name, "change_speed", target=target.text))
 
     def _limit_within(
         self,
@@ -166,7 +168,7 @@ class Speeds(Reader):
             modifier = f"speed({delta.text}, faster_than: {reference})"
             if not delta.is_open and delta.value == 0.0:
                 modifier = f"speed(same_as: {reference})"
-        return Statement(f"{actor.verb}()", modifiers=[modifier], length=math.inf)
+        return Statement(actor.moves, modifiers=[modifier], length=math.inf)
 
     def _gap(self, node: Node, actor: Actor, at_start: bool) -> Statement | None:
         said = self._values.text(node, "entityRef")
@@ -192,12 +194,17 @@ class Speeds(Reader):
         else:
             target = self._values.quantity(node, "distance", LENGTH)
             kind = "space"
-        arguments = f"target: {target.text}, direction: {direction}, reference: {reference.name}"
-        change = Statement(f"{actor.name}.change_{kind}_gap({arguments})")
+        arguments = {"target": target.text, "direction": direction, "reference": reference.name}
+        change = Statement(call(actor.name, f"change_{kind}_gap", **arguments))
         if not continuous:
             return change
         keep = Statement(
-            f"{actor.name}.keep_{kind}_gap(reference: {reference.name}, direction: longitudinal)",
+            call(
+                actor.name,
+                f"keep_{kind}_gap",
+                reference=reference.name,
+                direction="longitudinal",
+            ),
             length=math.inf,
         )
         return composed("serial", [change, keep])
@@ -245,11 +252,10 @@ class Speeds(Reader):
                 else None
             )
             if spot is not None:
-                call = f"{actor.name}.assign_position({spot.argument})"
-                return Statement(call, length=0.0)
+                return Statement(spot.assigned_to(actor.name), length=0.0)
         if is_aside:
             node.approximate("it is in the middle of its lane after it was put there")
-        return Statement(f"{actor.name}.assign_position()", modifiers=modifiers, length=0.0)
+        return Statement(call(actor.name, "assign_position"), modifiers=modifiers, length=0.0)
 
 
 def _peak(shape: str) -> float:

@@ -11,8 +11,8 @@ from osc2tx.importing.cursor import Node
 from osc2tx.importing.effects import LATERAL
 from osc2tx.importing.places import Places
 from osc2tx.importing.points import Spot
-from osc2tx.importing.program import Statement, composed
-from osc2tx.importing.routes import Routes
+from osc2tx.importing.routes import REPLAYS, Routes
+from osc2tx.importing.statements import Call, Statement, When, call, composed
 from osc2tx.importing.values import Values
 from osc2tx.xosc.element import Unresolved
 
@@ -81,11 +81,13 @@ class Starts:
                     self._ways[said] = way
                 continue
             for effect in self._actions.effects(action, (said,), at_start=True):
-                if ".replay_" in effect.statement.text and inner.tag == "RoutingAction":
+                does = effect.statement.does
+                verb = does.action if isinstance(does, Call) else ""
+                if verb in REPLAYS and inner.tag == "RoutingAction":
                     self._begin_on(inner, said, places)
                 if effect.slots == {LATERAL} and effect.statement.length is None:
                     self._paths[said] = effect.statement
-                elif effect.statement.text.startswith(f"{actor.name}.assign_speed("):
+                elif verb == "assign_speed":
                     self._speeds[said] = effect.statement
                 else:
                     self._others.setdefault(said, []).append(effect.statement)
@@ -121,8 +123,8 @@ class Starts:
             modifiers.append(_at_start(spot.yaw))
         speed = self._speeds.get(said)
         if speed is not None:
-            value = speed.text.removeprefix(f"{self._cast.actors[said].name}.assign_speed(")[:-1]
-            modifiers.append(f"speed({value})")
+            assert isinstance(speed.does, Call)
+            modifiers.append(f"speed({speed.does.get('')})")
         return modifiers
 
     def places(self, said: str) -> bool:
@@ -168,8 +170,8 @@ class Starts:
         if self._is_at_point(said) and not self._others.get(said):
             modifiers = self._on_foot(said)
             stands = said not in self._speeds and not self.has_way(said)
-            call = f"{actor.name}.remain_stationary()" if stands else f"{actor.verb}()"
-            return [Statement(call, modifiers=modifiers, length=math.inf)]
+            does = call(actor.name, "remain_stationary") if stands else actor.moves
+            return [Statement(does, modifiers=modifiers, length=math.inf)]
         return [*self.statements(said), *(self.lasting(said) or self.going(said))]
 
     def statements(self, said: str, then: list[Statement] | None = None) -> list[Statement]:
@@ -181,15 +183,16 @@ class Starts:
         """
         actor = self._cast.actors[said]
         others = self._others.get(said, [])
-        is_wait = bool(then) and then is not None and then[0].text.startswith("wait ")
+        is_wait = bool(then) and then is not None and isinstance(then[0].does, When)
         if is_wait and not others and said in self._spots:
             if self._is_at_point(said):
                 modifiers = self._on_foot(said)
-                return [Statement(f"{actor.verb}()", modifiers=modifiers, length=math.inf)]
+                return [Statement(actor.moves, modifiers=modifiers, length=math.inf)]
             return [*self.statements(said), *self.going(said)]
         found: list[Statement] = []
         at_once = [each for each in others if each.length == 0.0]
-        is_moved = any(".assign_position(" in each.text for each in at_once)
+        calls = [each for statement in at_once for each in statement.calls]
+        is_moved = any(each.action == "assign_position" for each in calls)
         if said in self._spots and not is_moved:
             spot, node = self._spots[said]
             if spot.yaw and not spot.turned:

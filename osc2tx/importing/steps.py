@@ -10,7 +10,7 @@ from osc2tx.importing.conditions import Conditions, Trigger
 from osc2tx.importing.cursor import Node
 from osc2tx.importing.effects import Effect
 from osc2tx.importing.names import Names, short
-from osc2tx.importing.program import Statement, composed
+from osc2tx.importing.statements import Statement, composed
 from osc2tx.importing.values import Values
 from osc2tx.xosc.element import Element, Unresolved
 from osc2tx_shared.classes import dataclass

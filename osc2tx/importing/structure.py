@@ -17,7 +17,8 @@ from osc2tx.importing.cast import Actor
 from osc2tx.importing.conditions import Trigger
 from osc2tx.importing.dimensions import TIME, Quantity, literal
 from osc2tx.importing.joining import Join, joined
-from osc2tx.importing.program import Statement, composed, wait
+from osc2tx.importing.program import EVENT, Declared
+from osc2tx.importing.statements import Emit, Statement, When, composed, elapsed, wait
 from osc2tx.importing.steps import ENDS, Block, Board, Branch, Step
 from osc2tx.importing.waiting import Waiting, lateness, minus, nominal_start, start_of
 
@@ -26,7 +27,7 @@ class Structure:
     """Finds the order of the events of a storyboard.
 
     Attributes:
-        lines: Declarations that the order needs: events, overrides.
+        declared: What the order needs: events, overrides.
         references: How often the scenario refers to statements, by their labels.
     """
 
@@ -42,7 +43,7 @@ class Structure:
         """
         self._board, self._going_on = board, going_on
         self._waiting = Waiting(board, name_event)
-        self.lines = self._waiting.lines
+        self.declared = self._waiting.declared
         self.waits = self._waiting.waits
         self.references = self._waiting.references
         self._predecessor = self._waiting.predecessor
@@ -199,9 +200,9 @@ class Structure:
             return self._block(step)
         if step.effects:
             return step.statement
-        if f"event {step.label}" not in self.lines:
-            self.lines.append(f"event {step.label}")
-        return Statement(f"emit {step.label}", comments=step.comments, length=0.0)
+        if all(step.label != each.name for each in self.declared):
+            self.declared.append(Declared(step.label, EVENT))
+        return Statement(Emit(step.label), comments=step.comments, length=0.0)
 
     def _timeline(self, group: Sequence[Step]) -> Branch:
         """Return steps at times, one after the other; what is still going on ends."""
@@ -210,7 +211,7 @@ class Structure:
         for index, step in enumerate(ordered):
             start = nominal_start(step)
             if index == 0 and start.value > 0.0:
-                branch.members.append(wait(f"elapsed({start.text})"))
+                branch.members.append(wait(elapsed(start.text)))
             content = self._chain(step, waits=False)
             if index + 1 == len(ordered):
                 branch.members += content
@@ -230,7 +231,7 @@ class Structure:
     ) -> list[Statement]:
         """Return statements that are over after a time, and last until then."""
         if not content:
-            return [wait(f"elapsed({gap.text})")]
+            return [wait(elapsed(gap.text))]
         lengths = [each.length for each in content]
         total = sum(each for each in lengths if each is not None)
         if None not in lengths and total <= gap.value + 1e-9:
@@ -239,10 +240,10 @@ class Structure:
             left = gap.text if total == 0.0 else literal(round(gap.value - total, 6), TIME)
             if total > 0.0 and gap.is_open:
                 left = f"{gap.text} - {literal(total, TIME)}"
-            return [*content, wait(f"elapsed({left})")]
+            return [*content, wait(elapsed(left))]
         actors = {actor for each in _below(step) for actor in each.actors}
         last = composed("serial", [*content, *self.go_on(sorted(actors))])
-        last.modifiers.append(f"until elapsed({gap.text})")
+        last.until.append(elapsed(gap.text))
         last.length = gap.value
         return [last]
 
@@ -264,7 +265,9 @@ class Structure:
                     both = ((a, b), (b, a)) if a.effects and b.effects else ()
                     for ended, by in both:
                         if _ends(by, ended):
-                            self.lines.append(f"override({ended.label}, {by.label})")
+                            self.declared.append(
+                                Declared("", f"override({ended.label}, {by.label})")
+                            )
                             self.references.update((ended.label, by.label))
 
     # --- acts that are stopped --------------------------------------------------------------------
@@ -272,12 +275,13 @@ class Structure:
     def _block(self, block: Block) -> Statement:
         """Return an act up to what stops it."""
         beside = [composed("serial", each.members) for each in self.branches(block.inner)]
-        whole = composed("parallel", [each for each in beside if each.members != []])
+        whole = composed("parallel", [e for e in beside if e.members or not e.is_composed])
         ways = [self.waits(Trigger([group])) for group in block.stop.groups]
-        if all(len(way) == 1 and way[0].members is None for way in ways):
-            if whole.members is None or whole.label or whole.modifiers:
+        ends = [each.does for way in ways for each in way if isinstance(each.does, When)]
+        if len(ends) == len(ways) and all(len(way) == 1 for way in ways):
+            if not whole.is_composed or whole.label or whole.is_qualified:
                 whole = Statement("serial", members=[whole])
-            whole.modifiers += [f"until {way[0].text.removeprefix('wait ')}" for way in ways]
+            whole.until += ends
         else:
             whole = composed("one_of", [whole, *(composed("serial", way) for way in ways)])
         whole.label = block.label if block.label in self._referred_labels else ""

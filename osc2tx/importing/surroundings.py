@@ -9,10 +9,10 @@ from osc2tx.importing.document import Document
 from osc2tx.importing.effects import Effect
 from osc2tx.importing.libraries import Shared
 from osc2tx.importing.marks import Marks
-from osc2tx.importing.program import Statement
 from osc2tx.importing.signals import TrafficLights
+from osc2tx.importing.statements import Emit, Statement, call
 from osc2tx.importing.values import Values
-from osc2tx.importing.weather import OWN, Weather
+from osc2tx.importing.weather import Weather
 
 ENVIRONMENT = "env"
 """The name of the environment in scenarios."""
@@ -49,7 +49,7 @@ class Surroundings:
                     node.leave_out("variables are events here: they are set, not computed")
                     return
                 value = self._values.text(setting, "value")
-                yield Effect(Statement(f"emit {self._marks.event(name, value)}", length=0.0))
+                yield Effect(Statement(Emit(self._marks.event(name, value)), length=0.0))
             case "EnvironmentAction":
                 yield from self._environment(node)
             case "InfrastructureAction" if node.inner.tag == "TrafficSignalAction":
@@ -66,12 +66,15 @@ class Surroundings:
         environment = node.find("Environment")
         if environment is None and reference is not None:
             environment = self._values.entry(reference)
-        calls = [] if environment is None else list(self._weather.calls(environment))
         found = None if reference is None else self._document.entry(reference.element)
+        owner = ENVIRONMENT if found is None else ""
+        calls = [] if environment is None else list(self._weather.calls(environment, owner))
         if reference is not None and found is not None and calls:
-            said = reference.said("entryName")
-            calls = [f"{self._shared.behavior(found[1], said, 'environment', calls).name}()"]
-        for call in calls:
+            lines = [each.text for each in calls]
+            entry = self._shared.behavior(
+                found[1], reference.said("entryName"), "environment", lines
+            )
+            calls = [call(ENVIRONMENT, entry.name)]
+        for each in calls:
             self.needs_environment = True
-            text = f"{ENVIRONMENT}.{call.replace(OWN, ENVIRONMENT)}"
-            yield Effect(Statement(text, length=0.0))
+            yield Effect(Statement(each, length=0.0))

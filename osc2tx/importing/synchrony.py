@@ -9,7 +9,7 @@ from osc2tx.importing.cast import Actor
 from osc2tx.importing.cursor import Node
 from osc2tx.importing.dimensions import LENGTH, SPEED, TIME, Quantity, literal
 from osc2tx.importing.effects import LONGITUDINAL, Effect, Reader
-from osc2tx.importing.program import Statement, composed
+from osc2tx.importing.statements import Call, Statement, When, call, composed
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.element import Unresolved
 from osc2tx.xosc.player.errors import Unplayable
@@ -76,20 +76,23 @@ class Synchrony(Reader):
 
     def _statement(self, steps: Plan, actor: Actor, node: Node, end: Quantity) -> Statement:
         """Return what the actor does."""
-        change = f"{actor.name}.change_speed"
+
+        def change(target: str, duration: str) -> Call:
+            told = {"target": target, "rate_profile": "constant", "duration": duration}
+            return call(actor.name, "change_speed", **told)
+
         members: list[Statement] = []
-        profile = "rate_profile: constant"
         if steps.through is not None and abs(steps.through - end.value) > EVEN:
             half = literal(round(0.5 * steps.change, 6), TIME)
             middle = literal(round(steps.through, 6), SPEED)
-            members.append(Statement(f"{change}(target: {middle}, {profile}, duration: {half})"))
-            members.append(Statement(f"{change}(target: {end.text}, {profile}, duration: {half})"))
+            members.append(Statement(change(middle, half)))
+            members.append(Statement(change(end.text, half)))
         elif steps.through is None and steps.change > 0.0:
             if steps.hold > 0.0:
-                until = f"until {self._is_near(node, steps)}"
-                members.append(Statement(actor.goes_on, modifiers=[until]))
+                until = When(self._is_near(node, steps))
+                members.append(Statement(actor.goes_on, until=[until]))
             time = literal(round(steps.change, 6), TIME)
-            members.append(Statement(f"{change}(target: {end.text}, {profile}, duration: {time})"))
+            members.append(Statement(change(end.text, time)))
         elif steps.through is not None:
             members.append(self._held(actor, steps.change))
         if steps.steady > 0.0:
@@ -98,8 +101,8 @@ class Synchrony(Reader):
 
     @staticmethod
     def _held(actor: Actor, time: float) -> Statement:
-        call = actor.goes_on.removesuffix("()")
-        return Statement(f"{call}(duration: {literal(round(time, 6), TIME)})", length=time)
+        duration = literal(round(time, 6), TIME)
+        return Statement(call(actor.name, "keep_speed", duration=duration), length=time)
 
     def _is_near(self, node: Node, steps: Plan) -> str:
         """Return the condition that the master is at the distance of the change."""

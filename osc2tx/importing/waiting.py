@@ -8,7 +8,8 @@ from collections.abc import Callable, Iterator, Sequence
 from osc2tx.importing.conditions import Condition, Trigger
 from osc2tx.importing.dimensions import PRODUCT, TIME, Quantity, literal, total
 from osc2tx.importing.entity_conditions import joined_by
-from osc2tx.importing.program import Statement, composed, wait
+from osc2tx.importing.program import EVENT, Declared
+from osc2tx.importing.statements import Statement, When, composed, elapsed, happens, wait
 from osc2tx.importing.steps import ENDS, STARTS, Block, Board, Step
 from osc2tx_shared.classes import replace
 
@@ -20,7 +21,7 @@ class Waiting:
     """Turns triggers into waits.
 
     Attributes:
-        lines: Declarations that the order needs: events, overrides.
+        declared: What the order needs: events, overrides.
         predecessor: Steps by those behind them.
         references: How often the scenario refers to statements, by their labels.
     """
@@ -33,10 +34,10 @@ class Waiting:
             name_event: Gives a name for an event of the scenario.
         """
         self._board, self._name_event = board, name_event
-        self.lines: list[str] = []
+        self.declared: list[Declared] = []
         self.predecessor: dict[Step, Step] = {}
         self.references: Counter[str] = Counter()
-        self._declared: dict[str, str] = {}
+        self._named: dict[str, str] = {}
 
     def steps_of(self, condition: Condition) -> list[Step]:
         """Return the last steps of what a condition is about."""
@@ -47,7 +48,7 @@ class Waiting:
 
     def waits(self, trigger: Trigger, behind: Step | None = None) -> list[Statement]:
         """Return what waits for a trigger; `behind`: it comes after this step."""
-        later = [] if trigger.after is None else [wait(f"elapsed({trigger.after.text})")]
+        later = [] if trigger.after is None else [wait(elapsed(trigger.after.text))]
         if trigger.is_immediate:
             return later
         groups = [self._of_group(group, behind) for group in trigger.groups]
@@ -78,32 +79,30 @@ class Waiting:
             latest = max(times, key=_nominal)
             # what counts later is looked at so much earlier
             text = _time_of(latest) if late == 0.0 else _earlier(_time_of(latest), latest, late)
-            found += [] if text is None else [wait(f"elapsed({text})")]
+            found += [] if text is None else [wait(elapsed(text))]
         found += self._happened(happenings, behind, late)
         if len(edges) == 1 and not levels:
-            found.append(wait(_edge(edges[0])))
+            found.append(wait(When(_edge(edges[0]))))
         elif len(edges) == 1:
             name = self._event(_edge(edges[0]), edges[0])
             conjunction = joined_by("and", [each.text for each in levels])
             is_long = len(conjunction) > ON_A_LINE
-            found.append(
-                wait(f"@{name} if ({conjunction})" if is_long else f"@{name} if {conjunction}")
-            )
+            found.append(wait(happens(name, f"({conjunction})" if is_long else conjunction)))
         elif edges:
             edges[0].node.approximate(
                 "edges of several conditions are the edge of their conjunction"
             )
             conjunction = joined_by("and", [each.text for each in (*edges, *levels)])
-            found.append(wait(f"rise({conjunction})"))
+            found.append(wait(When(f"rise({conjunction})")))
         elif levels:
             conjunction = joined_by("and", [each.text for each in levels])
             is_long = len(levels) > 1 and len(conjunction) > ON_A_LINE
-            found.append(wait(f"({conjunction})" if is_long else conjunction))
+            found.append(wait(When(f"({conjunction})" if is_long else conjunction)))
         if late > 0.0:
             only = expressions[0]
             is_alone = len(expressions) == 1 and only.lasting == 0.0 and only.delay is not None
             text = only.delay.text if is_alone and only.delay else literal(late, TIME)
-            found.append(wait(f"elapsed({text})"))
+            found.append(wait(elapsed(text)))
         return found
 
     @staticmethod
@@ -122,23 +121,22 @@ class Waiting:
         """Return what waits for events and their delays, up to some time (s) before the last."""
         waits = []
         for each in happenings:
-            marks = [wait(mark) for mark in self._ends(each, behind)]
+            marks = [wait(happens(mark)) for mark in self._ends(each, behind)]
             waited = [composed("parallel", marks)] if marks else []
             if each.delay is not None:
                 text = each.delay.text if late == 0.0 else _earlier(each.delay.text, each, late)
-                waited += [] if text is None else [wait(f"elapsed({text})")]
+                waited += [] if text is None else [wait(elapsed(text))]
             if waited:
                 waits.append(composed("serial", waited))
         if not waits:
             return []
         whole = composed("parallel", waits)
-        is_serial = whole.text == "serial" and whole.members is not None
-        return list(whole.members or ()) if is_serial else [whole]
+        return list(whole.members) if whole.does == "serial" else [whole]
 
     def _ends(self, condition: Condition, behind: Step | None) -> Iterator[str]:
         """Yield the events of the language that a condition waits for."""
         if condition.kind == "event":
-            yield f"@{condition.text}"
+            yield condition.text
             return
         steps = self.steps_of(condition)
         if not steps:
@@ -155,17 +153,17 @@ class Waiting:
             if step is behind:
                 continue
             if not step.effects and not isinstance(step, Block):
-                yield f"@{step.label}"
+                yield step.label
             else:
                 self.references[step.label] += 1
-                yield f"@{step.label}.{'start' if condition.state in STARTS else 'end'}"
+                yield f"{step.label}.{'start' if condition.state in STARTS else 'end'}"
 
     def _event(self, text: str, condition: Condition) -> str:
-        if text not in self._declared:
+        if text not in self._named:
             name = self._name_event("condition")
-            self.lines.append(f"event {name} is {text}")
-            self._declared[text] = name
-        return self._declared[text]
+            self.declared.append(Declared(name, EVENT, value=text))
+            self._named[text] = name
+        return self._named[text]
 
 
 def start_of(step: Step) -> Quantity | None:

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
+from typing import TypeAlias
 
 from osc2tx.importing.cursor import Node
 from osc2tx.importing.dimensions import ANGLE, LENGTH, SPEED, short
 from osc2tx.importing.document import Document
+from osc2tx.importing.statements import Call, call
 from osc2tx.importing.values import Values
 from osc2tx.xosc import elements as xml
 from osc2tx_runtime.world.grip.friction import ADHESION
@@ -28,7 +30,10 @@ FALLING: Mapping[str, tuple[float, ...]] = {
 
 
 OWN = "actor"
-"""How the methods of an environment call it."""
+"""How the scenarios of an environment call it."""
+
+Action: TypeAlias = tuple[str, dict[str, str]]
+"""The name of an action of an environment, with its arguments."""
 
 
 class Weather:
@@ -41,59 +46,68 @@ class Weather:
             for each in document.resolved.below(xml.Precipitation)
         }
 
-    def calls(self, environment: Node) -> Iterator[str]:
-        """Yield the methods of an environment that make it as an element says."""
+    def calls(self, environment: Node, actor: str = "") -> Iterator[Call]:
+        """Yield the invocations for an environment that make it as an element says.
+
+        Args:
+            environment: The element.
+            actor: The environment; `""`: that whose scenario it is.
+        """
+        for action, arguments in self._actions(environment, actor or OWN):
+            yield call(actor, action, **arguments)
+
+    def _actions(self, environment: Node, actor: str) -> Iterator[Action]:
         kind = ""
         for node in environment.children():
             if node.tag == "Weather":
                 yield from self._sky(node)
                 for each in node.children():
                     kind = each.element.get("precipitationType") or kind
-                    yield from self._part(each)
+                    yield from self._part(each, actor)
             elif node.tag == "RoadCondition":
                 self._road(node, kind)
             elif node.tag != "ParameterDeclarations":
                 node.leave_out("of the environment only weather and roads are imported")
 
-    def _sky(self, node: Node) -> Iterator[str]:
+    def _sky(self, node: Node) -> Iterator[Action]:
         cover = node.text("fractionalCloudCover")
         state = node.text("cloudState")
         if cover is not None and cover.removesuffix("Oktas") in OKTAS:
-            yield f"clouds(cloudiness: {OKTAS.index(cover.removesuffix('Oktas'))})"
+            yield "clouds", {"cloudiness": str(OKTAS.index(cover.removesuffix("Oktas")))}
         elif state is not None and state in CLOUDS:
             if state != "free":
                 node.approximate(f"a sky that is {state} has {CLOUDS[state]} oktas of clouds here")
-            yield f"clouds(cloudiness: {CLOUDS[state]})"
+            yield "clouds", {"cloudiness": str(CLOUDS[state])}
         elif state is not None or cover is not None:
             node.approximate(f"clouds {cover or state!r} have no counterpart in the DSL")
-        parts = []
+        parts = {}
         if node.has("temperature"):
             celsius = self._values.nominal(node, "temperature") - FREEZING
-            parts.append(f"temperature: {short(round(celsius, 6))}celsius")
+            parts["temperature"] = f"{short(round(celsius, 6))}celsius"
         if node.has("atmosphericPressure"):
             pressure = self._values.nominal(node, "atmosphericPressure")
-            parts.append(f"pressure: {short(round(0.01 * pressure, 6))}hPa")
+            parts["pressure"] = f"{short(round(0.01 * pressure, 6))}hPa"
         if parts:
-            yield f"air({', '.join(parts)})"
+            yield "air", parts
 
-    def _part(self, node: Node) -> Iterator[str]:
+    def _part(self, node: Node, actor: str) -> Iterator[Action]:
         match node.tag:
             case "Fog" if node.has("visualRange"):
                 visible = self._values.quantity(node, "visualRange", LENGTH)
-                yield f"fog(visual_range: {visible.text})"
+                yield "fog", {"visual_range": visible.text}
             case "Sun" if node.has("azimuth"):
                 for name in ("illuminance", "intensity"):
                     node.idle("how bright the sun is follows from where it stands", name)
                 azimuth = self._values.quantity(node, "azimuth", ANGLE)
                 elevation = self._values.quantity(node, "elevation", ANGLE)
-                where = f"azimuth: {azimuth.text}, elevation: {elevation.text}"
-                yield f"assign_celestial_position(light_source: {OWN}.sun, {where})"
+                where = {"azimuth": azimuth.text, "elevation": elevation.text}
+                yield "assign_celestial_position", {"light_source": f"{actor}.sun", **where}
             case "Wind":
                 speed = self._values.quantity(node, "speed", SPEED)
                 # from where it comes, clockwise from north, instead of whither from east
                 whither = self._values.nominal(node, "direction")
                 from_ = math.degrees((-0.5 * math.pi - whither) % (2.0 * math.pi))
-                yield f"wind(speed: {speed.text}, direction: {short(round(from_, 6))}deg)"
+                yield "wind", {"speed": speed.text, "direction": f"{short(round(from_, 6))}deg"}
             case "Precipitation":
                 yield from self._precipitation(node)
         for name, text in (
@@ -103,7 +117,7 @@ class Weather:
                 node.text(name)
                 node.approximate(f"{name}={text!r} has no counterpart in the DSL")
 
-    def _precipitation(self, node: Node) -> Iterator[str]:
+    def _precipitation(self, node: Node) -> Iterator[Action]:
         """Yield what falls; of rain and snow one ends when the other one begins."""
         kind = node.text("precipitationType") or "dry"
         if node.has("precipitationIntensity"):
@@ -114,9 +128,9 @@ class Weather:
                 node.approximate(f"its intensity 1 is taken to be {HEAVIEST_RAIN:g} mm/h")
         for each in ("rain", "snow"):
             if each in self._falling and each != kind:
-                yield f"{each}(intensity: 0mmph)"
+                yield each, {"intensity": "0mmph"}
         if kind in ("rain", "snow"):
-            yield f"{kind}(intensity: {short(round(amount, 6))}mmph)"
+            yield kind, {"intensity": f"{short(round(amount, 6))}mmph"}
 
     def _road(self, node: Node, kind: str) -> None:
         """Note how slippery roads are, which follows from what falls here."""

@@ -16,14 +16,22 @@ from osc2tx.importing.endings import (
     go_on_behind,
     held_for,
     is_open,
-    seconds,
-    texts_of,
     without_events,
 )
 from osc2tx.importing.names import Names
-from osc2tx.importing.program import Statement, composed, ended, wait, without_labels
 from osc2tx.importing.report import ImportReport
 from osc2tx.importing.starts import Starts
+from osc2tx.importing.statements import (
+    Statement,
+    When,
+    composed,
+    elapsed,
+    ended,
+    happens,
+    seconds,
+    wait,
+    without_labels,
+)
 from osc2tx.importing.steps import Branch
 from osc2tx.importing.structure import Structure
 
@@ -42,7 +50,7 @@ class Whole:
     ) -> Statement:
         """Return the behavior of branches, with their starts and what ends it."""
         endings = self._endings(structure, end)
-        branches, endings = without_events(branches, endings, structure.lines)
+        branches, endings = without_events(branches, endings)
         members = _Members(self._cast, inits, branches)
         begun = [*members.begin(), *inits.ways()]
         course = self._composed(structure, begun, members, endings)
@@ -53,14 +61,14 @@ class Whole:
         """Return what ends the scenario, each way of it as what is waited for."""
         if not is_endless(end):
             groups = (structure.waits(Trigger([group])) for group in end.groups)
-            return [waits or [wait("elapsed(0s)")] for waits in groups]
+            return [waits or [wait(elapsed("0s"))] for waits in groups]
         self._report.add(
             "approximated",
             "<StopTrigger>",
             f"nothing ends the document; the scenario ends after {LONGEST}",
             self._document.root.place,
         )
-        return [[wait(f"elapsed({LONGEST})")]]
+        return [[wait(elapsed(LONGEST))]]
 
     def _composed(
         self,
@@ -96,12 +104,12 @@ class Whole:
     ) -> Statement:
         """Return members side by side, some of which last longer or shorter than the scenario."""
         end = composed("serial", first_of(endings))
-        until = end.text.removeprefix("wait ")
-        if end.members is not None:
-            end.label = self._names.new("", kind="event", base="finished")
-            structure.references[end.label] += 1
-            until = f"@{end.label}.end"
-        return Statement("parallel", members=[*members, end], modifiers=[f"until {until}"])
+        if isinstance(end.does, When):
+            return Statement("parallel", members=[*members, end], until=[end.does])
+        end.label = self._names.new("", kind="event", base="finished")
+        structure.references[end.label] += 1
+        until = happens(f"{end.label}.end")
+        return Statement("parallel", members=[*members, end], until=[until])
 
 
 class _Members:
@@ -173,9 +181,10 @@ class _Members:
         before = [each for said in own for each in self._inits.statements(said, branch.members)]
         content = [*before, *branch.members]
         beside = [each for said in alone for each in self._inits.lasting(said)]
-        if branch.members and branch.members[0].text.startswith("wait "):
+        first = branch.members[0] if branch.members else None
+        if first is not None and isinstance(first.does, When):
             content = [*before, *beside, *branch.members]
-        elif branch.members and branch.members[0].members is not None:
+        elif first is not None and first.is_composed:
             # what is waited for in several ways goes on beside what is done up to then
             up_to = self._first_of([said for said in alone if self._inits.lasting(said)], branch)
             later = composed("serial", branch.members[:up_to])
@@ -188,17 +197,18 @@ class _Members:
 
     def _first_of(self, said: Sequence[str], branch: Branch) -> int:
         """Return how many members of a branch come before the first action of some entities."""
-        told = tuple(f"{self._actors[each].name}." for each in said)
+        actors = {self._actors[each].name for each in said}
         for index, member in enumerate(branch.members):
-            if index > 0 and told and any(text.startswith(told) for text in texts_of([member])):
+            if index > 0 and any(each.actor in actors for each in member.calls):
                 return index
         return len(branch.members)
 
     def _held(self, content: list[Statement], said: Sequence[str]) -> list[Statement]:
         """Return statements with a first wait during which actors hold their speeds."""
-        if not said or not content or not content[0].text.startswith("wait "):
+        by = content[0].does if content else None
+        if not said or not isinstance(by, When):
             return content
-        held = [ended(Statement(self._actors[each].goes_on), content[0]) for each in said]
+        held = [ended(Statement(self._actors[each].goes_on), by) for each in said]
         return [composed("parallel", held), *content[1:]]
 
     def going(self, branch: Branch) -> list[Statement]:
