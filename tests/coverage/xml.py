@@ -1,19 +1,26 @@
 """What becomes of scenarios and constructs as OpenSCENARIO XML, by version, from loss reports.
 
-Reports of the repository's own scenarios and of the golden tests of the back end are all that is
-looked at: a construct that none of them has is not in the table.
+Reports of the repository's own scenarios, whose documents are played, and of the golden tests of
+the back end are all that is looked at: a construct that none of them has is not in the table.
 """
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import cache
+from pathlib import Path
+from typing import Any
 
 from osc2tx.backends.xosc import XmlScenario, emit
 from osc2tx.backends.xosc.report import Entry, Grade
+from osc2tx.diagnostics import DiagnosticSink
+from osc2tx.grading import Source as Played
+from osc2tx.grading import graded
 from osc2tx.options import XML_VERSIONS, XmlVersion
+from osc2tx.support.records import Records
 from tests.coverage.capabilities import Row
 from tests.coverage.sources import Source, scenarios
 from tests.golden.test_xosc import CASES, written
@@ -24,19 +31,46 @@ WORDS = {
     Grade.INEXPRESSIBLE: "not expressible",
 }
 ORDER = (Grade.EXACT, Grade.APPROXIMATED, Grade.INEXPRESSIBLE)
+OF_VERSION = re.compile(r"revMinor=\W+\d|version=.1\.\d")
 THIS_VERSION = re.compile(r"OpenSCENARIO XML 1\.\d")
 ONE_OF_A_KIND = ("actor", "signal", "parameter")
 """Constructs that are called by a name of the scenario."""
 
 
+class Findings(Records):
+    """Findings in memory, which hold for the same document of another version."""
+
+    def __init__(self) -> None:
+        super().__init__(Path(), "")
+        self._known: dict[Path, dict[str, Any]] = {}
+
+    def place(self, *parts: object) -> Path:
+        """Return the name of a finding."""
+        return super().place(OF_VERSION.sub("", json.dumps(parts)))
+
+    def read(self, place: Path) -> dict[str, Any] | None:
+        """Return a finding."""
+        return self._known.get(place)
+
+    def write(self, place: Path, record: dict[str, Any]) -> None:
+        """Store a finding."""
+        self._known[place] = record
+
+
+FINDINGS = Findings()
+
+
 @cache
 def documents(source: Source, version: XmlVersion) -> tuple[XmlScenario, ...]:
-    """Return the scenarios of a file in a version."""
-    module = source.compilation.ir
+    """Return the scenarios of a file in a version, with grades by their runs, as of a build."""
+    compilation, folder = source.compilation, source.path.parent
+    module = compilation.ir
     if module is None or not module.scenarios:
         return ()
-    options = replace(source.compilation.options.xml, version=version)
-    return emit(module, options, source.path.parent)
+    options = replace(compilation.options, xml=replace(compilation.options.xml, version=version))
+    found = emit(module, options.xml, folder)
+    played = Played(module, options, folder, compilation.whole_module, FINDINGS)
+    return graded(found, played, DiagnosticSink())
 
 
 def grade_of(found: Iterable[XmlScenario]) -> Grade:

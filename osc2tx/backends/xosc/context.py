@@ -11,7 +11,7 @@ from osc2tx import ir
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.facts.map_search import MapSegment
 from osc2tx.backends.xosc.facts.maps import MapFolders, Pose, Roads
-from osc2tx.backends.xosc.logical.parameter_choices import NOTHING_OPEN, Choosing
+from osc2tx.backends.xosc.logical.sampling import NOTHING_OPEN, Choosing
 from osc2tx.backends.xosc.names import Names
 from osc2tx.backends.xosc.report import GENERIC, Inexpressible, LossReport, Remedy
 from osc2tx.backends.xosc.scopes import Scope, open_scopes

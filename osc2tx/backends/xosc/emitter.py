@@ -18,12 +18,12 @@ from osc2tx.backends.xosc.facts.maps import MapFolders
 from osc2tx.backends.xosc.facts.start_places import read_signal, read_spawn
 from osc2tx.backends.xosc.logical.distributions import document as values_document
 from osc2tx.backends.xosc.logical.documents import LogicalWriter
-from osc2tx.backends.xosc.logical.parameter_choices import Choosing
 from osc2tx.backends.xosc.logical.parameter_report import report_parameters
+from osc2tx.backends.xosc.logical.sampling import Choosing
 from osc2tx.backends.xosc.names import Names
 from osc2tx.backends.xosc.report import Inexpressible, LossReport
 from osc2tx.backends.xosc.report_json import report_json
-from osc2tx.backends.xosc.scopes import require_room
+from osc2tx.backends.xosc.scopes import open_scopes
 from osc2tx.diagnostics import Span
 from osc2tx.options import XmlOptions
 from osc2tx.xosc.element import Element, Unwritable
@@ -101,7 +101,7 @@ class _Emission:
     def run(self, name: str, infix: str) -> XmlScenario:
         """Return the document called `name`, and what goes with it."""
         try:
-            require_room(self._scenario, self._module)
+            open_scopes(self._scenario, self._module)
         except Inexpressible as error:
             report = LossReport(self._options)
             report.refuse("scenario invocation", self._scenario.span, error)

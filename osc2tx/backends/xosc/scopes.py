@@ -85,55 +85,15 @@ MOST_DEPTH = 30
 """Scenarios in each other; the verifier refuses those that invoke themselves."""
 
 
-def require_room(scenario: ir.Scenario, module: ir.Module) -> None:
-    """Refuse a scenario that is too large with those that it invokes, without opening them.
-
-    Raises:
-        Inexpressible: It is.
-    """
-    by_key = {each.key: each for each in module.scenarios}
-    sizes: dict[str, tuple[int, int]] = {}
-
-    def size(key: str, around: int) -> tuple[int, int]:
-        """Return the members of a scenario, and how many scenarios are in each other below it."""
-        if key not in sizes and around <= MOST_DEPTH:
-            nodes = ir.walk_behaviors(by_key[key].body)
-            keys = [key for node in nodes for key in _invocable(node)]
-            inner = [size(key, around + 1) for key in keys]
-            members = len(nodes) + sum(members for members, _ in inner)
-            sizes[key] = members, 1 + max((depth for _, depth in inner), default=0)
-        return sizes.get(key, (0, MOST_DEPTH))
-
-    members, depth = size(scenario.key, 0)
-    invoked = members - len(ir.walk_behaviors(scenario.body))
-    if members > MOST_MEMBERS:
-        much = f"{members} members, at most {MOST_MEMBERS}"
-    elif invoked > MOST_INVOKED:
-        much = f"{invoked} of their members, at most {MOST_INVOKED}"
-    elif depth > MOST_DEPTH:
-        much = f"more than {MOST_DEPTH} levels"
-    else:
-        return
-    raise Inexpressible(
-        f"with invoked scenarios in place, a document would have {much}",
-        scenario.span,
-        Remedy(instead="a document for each of the scenarios that it invokes is exact"),
-    )
-
-
-def _invocable(node: ir.Behavior) -> tuple[str, ...]:
-    """Return the keys of the scenarios of which a member may run one."""
-    if not isinstance(node, ir.InvokeScenario):
-        return ()
-    return (node.key, *(special.key for special in node.specials))
-
-
 def open_scopes(
     scenario: ir.Scenario, module: ir.Module, chosen: Mapping[str, Constant] | None = None
 ) -> Scope:
     """Return the scope of a scenario, with those of what it invokes.
 
     Chosen are values of open parameters, by their keys.
+
+    Raises:
+        Inexpressible: It is too large with the scenarios that it invokes.
     """
     return _Opener(module, chosen or {}).open(scenario, {}, {}, _Place("", "", (scenario.key,)))
 
@@ -174,6 +134,7 @@ class _Opener:
         self._paths = Names()
         self._chosen = chosen
         self._shared: dict[str, CastMember] = {}  # global actors
+        self._invoked = 0  # members of invoked scenarios
 
     def open(
         self,
@@ -183,6 +144,16 @@ class _Opener:
         place: _Place,
         unknown: Mapping[str, Inexpressible] | None = None,
     ) -> Scope:
+        nodes = ir.walk_behaviors(scenario.body)
+        self._invoked += len(nodes) if place.path else 0
+        is_large = len(nodes) > MOST_MEMBERS or self._invoked > MOST_INVOKED
+        if is_large or len(place.around) > MOST_DEPTH:
+            raise Inexpressible(
+                f"with invoked scenarios in place, a document would have more than {MOST_INVOKED}"
+                f" of their members, {MOST_MEMBERS} in all or {MOST_DEPTH} levels",
+                scenario.span,
+                Remedy(instead="a document for each of the scenarios that it invokes is exact"),
+            )
         keys = {
             d.name: key_of(place.path, d)
             for d in scenario.declarations
@@ -195,7 +166,7 @@ class _Opener:
         for declaration in scenario.declarations:
             if isinstance(declaration, ir.Actor) and declaration.name not in handed_in:
                 self._join(declaration, scope)
-        for node in ir.walk_behaviors(scenario.body):
+        for node in nodes:
             if isinstance(node, ir.InvokeScenario):
                 try:
                     callee = self._by_key[chosen_key(node, scope.values)]

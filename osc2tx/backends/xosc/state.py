@@ -76,7 +76,6 @@ class ActorState:
         rate: Acceleration (m/s^2) that an action may keep; `None` if it may be anything.
         jumped: The speed may have changed in no time before, or evenly up to the end, and not again
             since then.
-        returns: A change of its place in the lane goes on to its end though it is cut short.
         unfinished: What may still be changing when the last action has ended, by domain, with the
             event that changes it.
     """
@@ -88,7 +87,6 @@ class ActorState:
     aim: float | None = None
     rate: float | None = 0.0
     jumped: bool = False
-    returns: bool = False
     unfinished: tuple[tuple[str, str], ...] = ()
 
     @property
@@ -110,11 +108,11 @@ class ActorState:
         found = replace(self, unfinished=self._others(domain))
         if domain == LONGITUDINAL:
             return replace(found, rate=0.0, jumped=False)
-        return replace(found, returns=False) if domain == LATERAL else found
+        return found
 
     def going_on(self, other: ActorState) -> ActorState:
         """Return the state in which what changes goes on as in another one."""
-        return replace(self, rate=other.rate, jumped=other.jumped, returns=other.returns)
+        return replace(self, rate=other.rate, jumped=other.jumped)
 
     def _others(self, domain: str) -> tuple[tuple[str, str], ...]:
         return tuple(pair for pair in self.unfinished if pair[0] != domain)
@@ -141,6 +139,5 @@ def merged(a: ActorState, b: ActorState) -> ActorState:
         aim=b.aim if a.aim is None else a.aim if b.aim in (None, a.aim) else None,
         rate=a.rate if a.rate == b.rate else None,
         jumped=a.jumped or b.jumped,
-        returns=a.returns or b.returns,
         unfinished=unfinished,
     )

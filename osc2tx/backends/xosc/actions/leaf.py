@@ -22,7 +22,6 @@ from osc2tx.backends.xosc.facts.actors import (
     road_condition,
     steepest,
 )
-from osc2tx.backends.xosc.facts.maps import Pose
 from osc2tx.backends.xosc.report import NOTHING, Inexpressible, Metres, Remedy
 from osc2tx.backends.xosc.state import LONGITUDINAL, NOTHING_KNOWN, ActorState, Demand, merged
 from osc2tx.xosc import elements as xml
@@ -229,23 +228,6 @@ class Leaf:
         for node, move in moves.items():
             state = merged(state, move.during) if is_any or node in beside else state
         return state
-
-    def start_pose(self) -> Pose | None:
-        """Return where the actor begins: at its start, or after a drive from there at one speed."""
-        state, ctx = self.state, self.ctx
-        start = ctx.at_start[self.member.name]
-        if state.pose is not None or ctx.roads is None or start.lane is None:
-            return state.pose
-        if self.is_start:
-            return ctx.roads.map.pose(start.lane)
-        before = ir.predecessor(ctx.scenario.body, self.node)
-        if before is None or before.duration is None or not ir.is_first(ctx.scenario.body, before):
-            return None
-        speed = state.known_speed
-        if speed is None or state.speed != start.speed or state.offset != start.offset:
-            return None
-        there = ctx.roads.ahead(start.lane, speed * ctx.values.number(before.duration))
-        return None if there is None else ctx.roads.map.pose(there)
 
     def is_left(self, side: str) -> bool:
         """Whether the `inside` or the `outside` of its road is to its left."""

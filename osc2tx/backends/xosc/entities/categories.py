@@ -21,13 +21,13 @@ class _Category(NamedTuple):
     Attributes:
         literal: From 1.4 on.
         older: Before; `None` if vehicles of this kind could not be said.
-        loss: What the older one does not say.
+        is_lossy: The older one is about other vehicles, too.
         instead: What is exact with the older ones, too.
     """
 
     literal: VehicleCategory
     older: VehicleCategory | None
-    loss: str = ""
+    is_lossy: bool = False
     instead: str = ""
 
 
@@ -40,30 +40,22 @@ _CATEGORIES: Mapping[str, _Category] = {
     "bus": _Category("bus", "bus"),
     "car": _Category("car", "car"),
     "heavy_truck": _Category("heavyTruck", "truck"),
-    "land_vehicle": _Category(
-        "landVehicle", "car", "there is no literal for a land vehicle of any kind"
-    ),
-    "micro_mobility_device": _Category(
-        "micromobilityDevice", "bicycle", "there is no literal for such a device", _BICYCLE
-    ),
+    "land_vehicle": _Category("landVehicle", "car", True),
+    "micro_mobility_device": _Category("micromobilityDevice", "bicycle", True, _BICYCLE),
     "motorcycle": _Category("motorcycle", "motorbike"),
-    "other": _Category("other", "car", "there is no literal for another kind of vehicle"),
-    "semi_tractor": _Category("semitractor", "truck", "there is no literal for a semi-tractor"),
+    "other": _Category("other", "car", True),
+    "semi_tractor": _Category("semitractor", "truck", True),
     "semi_trailer": _Category("semitrailer", "semitrailer"),
-    "stand_up_scooter": _Category("standupScooter", "bicycle", "there is no literal for a scooter"),
+    "stand_up_scooter": _Category("standupScooter", "bicycle", True),
     "trailer": _Category("trailer", "trailer"),
     "train": _Category("train", "train"),
     "tram": _Category("tram", "tram"),
     "truck": _Category("heavyTruck", "truck"),
     "van": _Category("van", "van"),
-    "vru_vehicle": _Category(
-        "micromobilityDevice", "bicycle", "there is no literal for such a vehicle", _BICYCLE
-    ),
+    "vru_vehicle": _Category("micromobilityDevice", "bicycle", True, _BICYCLE),
     "watercraft": _Category("watercraft", None),
-    "wheelchair": _Category(
-        "wheelchair", "bicycle", "there is no literal for a wheelchair among vehicles"
-    ),
-    "work_machine": _Category("workMachine", "car", "there is no literal for a work machine"),
+    "wheelchair": _Category("wheelchair", "bicycle", True),
+    "work_machine": _Category("workMachine", "car", True),
 }
 
 # `trailer_category` (§8.7.17) -> literal.
@@ -100,9 +92,10 @@ def vehicle_literal(ctx: Context, member: CastMember) -> VehicleCategory:
     better = Remedy(version=HARMONIZED, instead=category.instead)
     if category.older is None:
         raise Inexpressible(f"there is no category for `{member.category}`", span, better)
-    if category.loss:
+    if category.is_lossy:
+        loss = f"there is no literal for `{member.category}`"
         bound = f"it is called a {category.older}; size and limits are kept"
-        ctx.report.approximate("vehicle_category", span, category.loss, bound, better)
+        ctx.report.approximate("vehicle_category", span, loss, bound, better)
     return category.older
 
 

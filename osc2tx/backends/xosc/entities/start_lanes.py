@@ -6,7 +6,6 @@ Headings are known in advance of who stands still, or drives along its lane.
 from __future__ import annotations
 
 import math
-from math import cos
 
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.arguments import Arguments
@@ -97,9 +96,6 @@ at_start("yaw", "orientation")
 STRAIGHT = 1e-6
 """Sine of an angle to a lane that counts as none."""
 
-NEAR = 0.05
-"""Metres beside its lane that count as in it."""
-
 
 def turned(ctx: Context, start: Start, along: float) -> tuple[float, float | None, float | None]:
     """Return heading, pitch and roll of who starts where the road has a heading (rad)."""
@@ -189,19 +185,3 @@ def stands(ctx: Context, entity: str) -> bool:
             if node.action not in STILL and (member is None or member.name == entity):
                 return False
     return True
-
-
-def faces_along(ctx: Context, me: str, other: str) -> bool:
-    """Whether two actors surely look the same way along their road, wherever they are on it."""
-    ways = [_way_along(ctx, name) for name in (me, other)]
-    return ways[0] is not None and ways[0] == ways[1]
-
-
-def _way_along(ctx: Context, entity: str) -> tuple[str, bool] | None:
-    """Return road and direction in which an actor set out along its lane; `None` if unknown."""
-    state, roads = ctx.at_start.get(entity), ctx.roads
-    if state is None or state.lane is None or roads is None:
-        return None
-    if state.pose is not None and cos(state.pose.h - roads.map.pose(state.lane).h) < 0.999:
-        return None
-    return state.lane.road, roads.map.travel_direction(state.lane.road, state.lane.lane) > 0

@@ -36,7 +36,6 @@ from osc2tx_runtime.world.geometry.profiles import (
 )
 from osc2tx_runtime.world.grip.friction import ADHESION, held_by, road_condition
 from osc2tx_runtime.world.lateral.execution import shift_profile
-from osc2tx_runtime.world.lateral.feedback import SIDEWAYS
 from osc2tx_runtime.world.longitudinal.acceleration import acceleration_profile, integral
 from osc2tx_runtime.world.longitudinal.execution import speed_profile, within_limits
 from osc2tx_runtime.world.motion.moving_body import ALIGNED
@@ -152,9 +151,3 @@ def _steepest_steps(course: Profile) -> Sequence[int]:
             beside = {each + offset for each in near for offset in (-1, 0, 1, 2)}
             return sorted({0, STEPS} | {each for each in beside if 0 < each < STEPS})
     return range(STEPS + 1)
-
-
-def fastest(course: Profile) -> float:
-    """Return the greatest rate of a course."""
-    step = course.duration / STEPS
-    return max(abs(course.rate((index + 0.5) * step)) for index in range(STEPS + 1))

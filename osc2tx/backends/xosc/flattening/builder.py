@@ -118,13 +118,7 @@ class StoryboardBuilder:
         for name, state in self._stop_states.pop().items():
             is_aside = state.offset is None and self.ctx.states[name].offset is not None
             left = ((LATERAL, self.act.name),) if is_aside else ()
-            if state.returns:
-                self.ctx.report.doubt(
-                    "an interrupted change of the offset in the lane",
-                    self.place,
-                    "it ends where it is; in the world it goes on to its place",
-                )
-            self.ctx.states[name] = replace(state, returns=False, unfinished=left)
+            self.ctx.states[name] = replace(state, unfinished=left)
         self.act = self._around.pop()
 
     def note(self, entity: str, state: ActorState) -> None:

@@ -11,7 +11,6 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from osc2tx import ir
 from osc2tx.backends.xosc.conditions.event_conditions import (
-    begins_at_once,
     early_triggers,
     emitted_by,
     triggers_of,
@@ -169,14 +168,6 @@ class EventTable:
         Who begins to wait then does not wait for the next time at which such a time begins.
         """
         reactions = self._reacting.get(name, ())
-        always = {id(node) for node in _always_there(self._scope.scenario.body)}
-        emissions = sum(emitted_by(node).count(name) for node in reactions)
-        if emissions < self._emitted[name] or any(id(n) not in always for n in reactions):
-            raise Inexpressible(
-                "whether the reaction to a condition that holds is still there is only known"
-                " during the run",
-                at.span,
-            )
         flow = NEVER
         for node in reactions:
             condition, event = node.trigger.condition, node.trigger.event
@@ -226,15 +217,6 @@ class EventTable:
         variable = self._ctx.variable_name(self._scope.prefix + name)
         self._ctx.declare(variable, "boolean", "false")
         return variable
-
-
-def _always_there(node: ir.Behavior) -> Iterator[ir.Behavior]:
-    """Yield the members that begin with the run and that only its end ends."""
-    yield node
-    if isinstance(node, ir.Parallel) and not node.until and node.duration is None:
-        for index, member in enumerate(node.members):
-            if begins_at_once(node, index):
-                yield from _always_there(member)
 
 
 def _reactions(body: ir.Behavior) -> Mapping[str, Sequence[ir.On]]:

@@ -197,7 +197,7 @@ def record_end_state(
 
 CHANGED = {
     LONGITUDINAL: ("speed", "pose", "aim", "rate", "jumped"),
-    LATERAL: ("offset", "lane", "pose", "returns"),
+    LATERAL: ("offset", "lane", "pose"),
 }
 """What a change may change, by domain; in others it is all."""
 

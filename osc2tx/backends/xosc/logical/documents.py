@@ -24,7 +24,6 @@ from osc2tx.backends.xosc.logical.distributions import (
     table,
     with_columns,
 )
-from osc2tx.backends.xosc.logical.parameter_choices import Choosing
 from osc2tx.backends.xosc.logical.parameters import (
     INSIDE,
     OpenParameter,
@@ -32,7 +31,7 @@ from osc2tx.backends.xosc.logical.parameters import (
     open_parameters,
     value_text,
 )
-from osc2tx.backends.xosc.logical.sampling import Domain, Row, inward
+from osc2tx.backends.xosc.logical.sampling import Choosing, Domain, Row, inward
 from osc2tx.options import XmlVersion
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.arithmetic import Range

@@ -18,8 +18,11 @@ from osc2tx import ir
 from osc2tx.backends.xosc.logical.parameters import OpenParameter, Point
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.scopes import Scope, open_scopes
+from osc2tx.backends.xosc.values.constants import Constant
 from osc2tx.backends.xosc.values.folding import Values
+from osc2tx.options import XmlVersion
 from osc2tx.xosc.arithmetic import Range
+from osc2tx.xosc.expressions import LONGEST
 
 RUNS_EACH = 10
 """Steps of a table for each parameter."""
@@ -227,3 +230,34 @@ def _thinned(rows: list[Row], wanted: int) -> list[Row]:
     if len(rows) <= wanted:
         return rows
     return [rows[index * (len(rows) - 1) // (wanted - 1)] for index in range(wanted)]
+
+
+class Choosing:
+    """The open parameters of a scenario and how they are chosen for one document.
+
+    Attributes:
+        parameters: All of them.
+        kept: Those that are parameters of the document; the others have just one value there.
+        point: The value of each.
+    """
+
+    def __init__(
+        self, parameters: Sequence[OpenParameter], kept: Sequence[OpenParameter], point: Point
+    ) -> None:
+        self.parameters = tuple(parameters)
+        self.kept = tuple(kept)
+        self.point = point
+        self._drawn = {(p.path, p.site): p for p in parameters}
+
+    def given(self, version: XmlVersion) -> dict[str, Constant]:
+        """Return what stands for the parameters, by their keys."""
+        longest = LONGEST if version >= "1.1" else 0  # 1.0 has no expressions
+        symbols = {p.key: p.symbol(self.point[p.key], longest) for p in self.kept}
+        return {**self.point, **symbols}
+
+    def drawn(self, scope: Scope, node: ir.Behavior | ir.ModifierCall) -> OpenParameter | None:
+        """Return the parameter that chooses a member, or the side of a lane change."""
+        return self._drawn.get((scope.path, node.span))
+
+
+NOTHING_OPEN = Choosing((), (), {})

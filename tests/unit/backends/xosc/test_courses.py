@@ -5,7 +5,7 @@ from math import pi, sqrt
 
 import pytest
 
-from osc2tx.backends.xosc.actions.position.position_modifiers import arrival
+from osc2tx.backends.xosc.actions.position.position_actions import arrival
 from osc2tx.backends.xosc.actions.speed.acceleration import ramp
 from osc2tx.backends.xosc.actions.speed.courses import Computed, through_points
 from osc2tx.backends.xosc.facts.actors import Cosine, Linear, Quintic, SCurve, steepest

@@ -15,10 +15,10 @@ from osc2tx.backends.xosc.facts.actors import Pace
 from osc2tx.backends.xosc.facts.map_search import MapSegment
 from osc2tx.backends.xosc.facts.maps import (
     LanePosition,
+    actual_lane,
     are_opposed,
     is_oncoming,
     lane_either_way,
-    number_of_oncoming,
 )
 from osc2tx.backends.xosc.report import GENERIC, Inexpressible
 from osc2tx.backends.xosc.state import LATERAL, known
@@ -117,11 +117,6 @@ def lane_change(
         to_lane = math.copysign(math.dist(*ways), count)
     way = abs(to_lane + offset - offset_of(state))
     shape, time = shift(leaf, way, pace, jumps=jumps)
-    if own_lanes is None and reference is not None and pace.duration is None and not jumps:
-        leaf.doubt(
-            f"how far the lane of {reference.name} is away is only known during the run: it takes"
-            f" {time:.3g} s, as to a lane beside it"
-        )
     after = replace(state, lane=target, offset=known(offset)).finished(LATERAL)
     if reference is not None and "RelativeTargetLane/entityRef" in leaf.ctx.profile.unsupported:
         if own_lanes is None:
@@ -151,8 +146,7 @@ def _number_among_oncoming(
     """Return the number of the target lane if it or the present one is of oncoming traffic.
 
     Raises:
-        Inexpressible: It is, and the number may change on the way, or there is an offset: its side
-            is not the same for all tools.
+        Inexpressible: It is, and there is an offset: its side is not the same for all tools.
     """
     roads = leaf.ctx.roads
     if roads is None or here is None or target is None:
@@ -161,15 +155,9 @@ def _number_among_oncoming(
     if oncoming is None:
         return None
     leaf.ctx.require_support("AbsoluteTargetLane")
-    number = number_of_oncoming(roads.map, oncoming)
-    if number is None:
-        raise Inexpressible(
-            "the lane of oncoming traffic does not stay beside its own all the way, so its number"
-            " is only known during the run"
-        )
     if offset:
         raise Inexpressible(NO_ONE_SIDE)
-    return number if oncoming is target else target.lane
+    return actual_lane(roads.map, oncoming).lane if oncoming is target else target.lane
 
 
 def _dynamics(leaf: Leaf, shape: DynamicsShape, time: float) -> xml.LaneChangeActionDynamics:

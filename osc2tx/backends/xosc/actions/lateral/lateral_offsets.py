@@ -67,11 +67,6 @@ def offset_change(leaf: Leaf, offset: float, pace: Pace) -> Change:
             f" states no length for a change of the offset: it takes so long for {way:.3g} m"
         )
     shape, time = shift(leaf, way, pace)
-    if pace.profile == "constant":
-        leaf.doubt(
-            "the XML states no length for a change of the offset, and a steady one has no peak that"
-            " gives it"
-        )
     # The XML gives no time, only the peak of the lateral acceleration: that of the shape.
     half_turn = math.pi / time
     peak_rate = 0.5 * way * half_turn * half_turn
@@ -79,9 +74,8 @@ def offset_change(leaf: Leaf, offset: float, pace: Pace) -> Change:
     target = xml.LaneOffsetTarget(xml.AbsoluteTargetLaneOffset(value=along_t(leaf, offset)))
     action = lateral(xml.LaneOffsetAction(dynamics, target, continuous=False))
     after = replace(leaf.state, offset=known(offset)).finished(LATERAL)
-    goes_on = abs(offset) < INSIDE
-    during = replace(after, offset=None, returns=goes_on)
-    return Change(LATERAL, (action,), time, during, after, goes_on=goes_on)
+    during = replace(after, offset=None)
+    return Change(LATERAL, (action,), time, during, after, goes_on=abs(offset) < INSIDE)
 
 
 EDGES = {"left": 0.5, "center": 0.0, "right": -0.5}

@@ -10,12 +10,9 @@ from functools import partial
 
 from osc2tx.backends.xosc.actions.leaf import Leaf
 from osc2tx.backends.xosc.facts.actors import (
-    SIDEWAYS,
     Linear,
     Pace,
-    Profile,
     course_of_shift,
-    fastest,
 )
 from osc2tx.backends.xosc.facts.maps import LanePosition
 from osc2tx.backends.xosc.state import ActorState
@@ -39,22 +36,10 @@ def shift(
             "it takes over the lateral speed of the change before; one of the XML begins without"
             " any"
         )
-    _note_slow(leaf, way, course)
     # Where the scenario leaves the shape open, any is right.
     is_free = pace.profile == "none" and not leaf.ctx.profile.has_shapes
     is_even = isinstance(course, Linear) or is_free
     return "linear" if is_even else "sinusoidal", course.duration
-
-
-def _note_slow(leaf: Leaf, way: float, course: Profile) -> None:
-    """Report a change across the road (m) that the speed of the actor may not allow."""
-    if way == 0.0 or leaf.member.walks:
-        return
-    needed = fastest(course) / SIDEWAYS
-    if leaf.state.speed is not None and max(map(abs, leaf.state.speed)) < needed:
-        leaf.doubt(
-            f"below {needed:.2g} m/s it takes longer than a change of the XML, whose time is fixed"
-        )
 
 
 def along_t(leaf: Leaf, offset: float, lane: LanePosition | None = None) -> float:
@@ -64,15 +49,7 @@ def along_t(leaf: Leaf, offset: float, lane: LanePosition | None = None) -> floa
     """
     roads = leaf.ctx.roads
     sign = None if roads is None else roads.leftwards(lane or leaf.state.lane)
-    if offset == 0.0 or sign == 1:
-        return offset
-    if sign is None:
-        leaf.doubt(
-            "the XML counts an offset along t of the road, and whether its lane leads along the"
-            " road or against it is only known during the run"
-        )
-        return offset
-    return -offset
+    return offset if offset == 0.0 or sign != -1 else -offset
 
 
 def offset_of(state: ActorState) -> float:

@@ -155,7 +155,9 @@ def _time(leaf: Leaf, corners: Sequence[Waypoint]) -> float | None:
 
 def _is_there(leaf: Leaf, point: Waypoint) -> bool:
     """Whether an actor surely begins where a line does: tools set out on no line of no length."""
-    pose = leaf.start_pose() if leaf.is_start else leaf.state.pose
+    pose, lane, roads = leaf.state.pose, leaf.state.lane, leaf.ctx.roads
+    if pose is None and leaf.is_start and lane is not None and roads is not None:
+        pose = roads.map.pose(lane)
     return pose is not None and math.hypot(point.x - pose.x, point.y - pose.y) < 1e-3
 
 

@@ -152,10 +152,10 @@ def _ramp(leaf: Leaf, rates: Linear | Quintic, duration: float) -> Change:
 
 
 NEAR = 0.02
-"""m/s within which a line between points is the course."""
+"""m/s by which the speed at the start may be another one."""
 
-COUNTS = (12, 24, 48, 96)
-"""Numbers of points that are tried."""
+COUNT = 24
+"""Points of a course."""
 
 STEPS = 400
 """Pieces in which an acceleration is summed up."""
@@ -196,22 +196,10 @@ def _shaped(leaf: Leaf, course: Computed) -> Change:
     start, speed = course.value(0.0), leaf.state.speed
     if speed is None or not speed.low - NEAR <= start <= speed.high + NEAR:
         raise Inexpressible("the shape does not begin with the speed at the start")
-    count = next((each for each in COUNTS if _beside(course, each) <= NEAR), COUNTS[-1])
-    if _beside(course, count) > NEAR:
-        leaf.doubt(f"a course of the speed goes through {count} points, in straight lines")
-    change = follow_course(leaf, course, count=count)
+    change = follow_course(leaf, course, count=COUNT)
     if change.during.speed is None or change.during.speed.low < 0.0:
         raise Inexpressible("the shape goes backwards")
     return change
-
-
-def _beside(course: Computed, count: int) -> float:
-    """Return how far (m/s) lines between points are from a course."""
-    step = course.duration / count
-    ends = [course.value(index * step) for index in range(count + 1)]
-    middles = (course.value((index + 0.5) * step) for index in range(count))
-    pairs = zip(middles, ends, ends[1:], strict=False)
-    return max(abs(middle - 0.5 * (left + right)) for middle, left, right in pairs)
 
 
 # --- methods of the shape -----------------------------------------------------------------------

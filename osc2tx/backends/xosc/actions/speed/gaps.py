@@ -111,8 +111,8 @@ def reach(leaf: Leaf, gap: Gap, *, keeps: bool, missing: float | None = None) ->
         )
         leaf.ctx.followed.setdefault(leaf.member.name, set()).add(name)
         return leaf.at_open_speed(speed_action(speed_of(name)), inf)
-    _require_side(leaf, gap)
-    _note_control(leaf, gap, missing, is_rigid=is_rigid)
+    if not is_rigid:
+        _note_control(leaf, missing)
     leaf.follow(gap.reference, rigid=is_rigid)
     limits = leaf.limits
     constraints = xml.DynamicConstraints(
@@ -138,7 +138,6 @@ def reach(leaf: Leaf, gap: Gap, *, keeps: bool, missing: float | None = None) ->
 def _reach_sideways(leaf: Leaf, gap: Gap, *, keeps: bool, missing: float | None) -> Change:
     if gap.is_time:
         raise Inexpressible("there is no time across the road in OpenSCENARIO XML")
-    _require_side(leaf, gap)
     newer = leaf.ctx.version >= "1.1"
     if not newer:
         leaf.doubt(
@@ -146,7 +145,8 @@ def _reach_sideways(leaf: Leaf, gap: Gap, *, keeps: bool, missing: float | None)
             Remedy(version="1.1"),
         )
     is_rigid = keeps and missing is not None and missing <= SURE
-    _note_control(leaf, gap, missing, is_rigid=is_rigid)
+    if not is_rigid:
+        _note_control(leaf, missing)
     most = leaf.limits.lateral
     # Between reference points: the free space of the XML shrinks where boxes turn.
     sides = 0.5 * (leaf.member.shape.width + gap.reference.shape.width)
@@ -174,16 +174,8 @@ def _present_gap(leaf: Leaf, gap: Gap) -> float | None:
     return (apart if gap.side == "behind" else -apart) + gap.beyond_points(leaf.member)
 
 
-def _note_control(leaf: Leaf, gap: Gap, missing: float | None, *, is_rigid: bool) -> None:
+def _note_control(leaf: Leaf, missing: float | None) -> None:
     """Report that a tool has a law of its own for a gap; what is missing (m) may be unknown."""
-    if is_rigid:
-        mine, theirs = leaf.limits, gap.reference.limits
-        if mine.acceleration < theirs.acceleration or mine.deceleration < theirs.deceleration:
-            leaf.doubt(
-                f"a gap without limits is kept even where {gap.reference.name} changes its speed"
-                f" faster than {leaf.member.name} can"
-            )
-        return
     bound: Metres | str = "until it is there, at most by what was missing at its start"
     if missing is not None:
         bound = Metres(missing, "until it is there")
@@ -198,30 +190,8 @@ def _measured(leaf: Leaf, gap: Gap) -> tuple[float, bool]:
         return round(gap.size, 6), True
     if gap.between == "points":
         return gap.size, False
-    beyond = gap.beyond_points(leaf.member)
-    if not gap.is_time:
-        return round(gap.size - beyond, 6), False
-    if abs(beyond) > SURE:
-        leaf.doubt("a time in the XML counts between reference points, not between fronts")
-    return round(gap.size, 6), False
-
-
-def _require_side(leaf: Leaf, gap: Gap) -> None:
-    """See to it that 1.0, which cannot say on which side a gap is, does not have to."""
-    if leaf.ctx.version >= "1.1":
-        return
-    before = ir.predecessor(leaf.ctx.scenario.body, leaf.node)
-    apart = None if gap.is_lateral else leaf.starts_behind(gap.reference)
-    side = None if apart is None else _side(apart)  # unless something has changed it since then
-    if before is not None and _changes_gap(before):
-        side = gap.side if leaf.node.action.startswith("keep_") else None
-    if side == gap.side:
-        return
-    reason = "OpenSCENARIO XML 1.0 does not say on which side a distance is kept"
-    newer = Remedy(version="1.1")
-    if side is not None:
-        raise Inexpressible(reason, remedy=newer)
-    leaf.doubt(reason, newer)
+    beyond = 0.0 if gap.is_time else gap.beyond_points(leaf.member)
+    return round(gap.size - beyond, 6), False
 
 
 def _changes_gap(node: ir.Invoke) -> bool:
