@@ -117,6 +117,7 @@ def _meant(
     written = {argument.name.text for argument in node.arguments if argument.name is not None}
     parameters = (each for each in parameters_of(callee) if each.name not in written)
     fitting = [each for each in parameters if _takes(each.type, value, given)]
+    fitting = [each for each in fitting if each.type == given] or fitting
     if len(fitting) == 1:
         return write(value.span, f"{fitting[0].name}: {value.span.text}", is_safe=False)
     name = str(given)

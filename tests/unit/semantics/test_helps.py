@@ -250,3 +250,10 @@ def test_the_help_names_what_to_write(
     assert [report.code for report in sink.sorted()] == [code]
     assert message in reports[0].message
     assert help_ is None or help_ in (reports[0].help or "")
+
+
+def test_a_value_is_named_for_the_parameter_of_its_type() -> None:
+    """A duration fits `time` and, as a range of one, `time_range` of 2.2."""
+    _, sink = build_text(scenario(member=DRIVE + "position(2s, behind: npc)"), standard="2.2")
+    (report,) = sink.sorted()
+    assert (report.code, report.help) == ("OSC302", "write `time: 2s`")
