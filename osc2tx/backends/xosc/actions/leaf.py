@@ -22,7 +22,7 @@ from osc2tx.backends.xosc.facts.actors import (
     road_condition,
     steepest,
 )
-from osc2tx.backends.xosc.report import NOTHING, Inexpressible, Metres, Remedy
+from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.state import LONGITUDINAL, NOTHING_KNOWN, ActorState, Demand, merged
 from osc2tx.xosc import elements as xml
 from osc2tx_shared.classes import dataclass, replace
@@ -176,14 +176,6 @@ class Leaf:
                 if change.domain == LONGITUDINAL and speed is not None:
                     self.ctx.demand(name, Demand(max(map(abs, speed))))
 
-    def approximate(self, reason: str, bound: Metres | str, remedy: Remedy = NOTHING) -> None:
-        """Report that the action means nearly the same in the XML."""
-        self.arguments.approximate(reason, bound, remedy)
-
-    def doubt(self, reason: str, remedy: Remedy = NOTHING) -> None:
-        """Report why the action may differ in the XML: a played document shows whether it does."""
-        self.arguments.doubt(reason, remedy)
-
     def modifier(self, name: str) -> Arguments | None:
         """Return the modifier of a name, if the invocation has one."""
         node = next((call for call in self.node.modifiers if call.name == name), None)
@@ -236,11 +228,6 @@ class Leaf:
             roads is None or lane is None or roads.map.roads[lane.road].right_hand_traffic
         )
         return (side == "inside") is is_right_hand
-
-    @property
-    def construct(self) -> str:
-        """What it is called in reports."""
-        return self.arguments.construct
 
     def known_speed(self, otherwise: str = UNKNOWN_SPEED) -> float:
         """Return the speed at the start (m/s).

@@ -110,7 +110,7 @@ def _note_open_speed(leaf: Leaf) -> None:
         return
     fastest = TOP_SPEED if speed is None else max(map(abs, speed))
     if fastest**2 * roads.sharpest_bend > leaf.limits.lateral:
-        leaf.doubt(
+        leaf.arguments.doubt(
             "no speed is stated: it slows down for bends in the world, but not in the XML",
             Remedy(instead="`keep_speed()` holds the speed in both"),
         )

@@ -29,7 +29,7 @@ def _disconnect(leaf: Leaf) -> Performance:
     trailer = only_trailer(leaf.ctx, leaf.member)
     if trailer is None:
         note = "what the trailer does then is up to the tool: the embedded world lets it stand"
-        leaf.ctx.report.exact(leaf.construct, leaf.node.span, note)
+        leaf.ctx.report.exact(leaf.arguments.construct, leaf.node.span, note)
     else:
         limits = held_by(trailer.limits, road_condition(leaf.ctx.weather))
         leaf.others.append((trailer, within_limits(0.0, limits, FASTEST), "stands"))

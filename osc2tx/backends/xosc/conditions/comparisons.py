@@ -11,12 +11,7 @@ from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.values.constants import Constant, Member, Named
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.element import Element
-from osc2tx.xosc.literals import (
-    CoordinateSystem,
-    DirectionalDimension,
-    RelativeDistanceType,
-    Rule,
-)
+from osc2tx.xosc.literals import CoordinateSystem, DirectionalDimension, RelativeDistanceType, Rule
 
 
 class Comparison(NamedTuple):

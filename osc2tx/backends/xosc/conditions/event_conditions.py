@@ -17,7 +17,6 @@ from osc2tx import ir
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.flattening.tree_queries import is_instant
 from osc2tx.backends.xosc.logical.parameters import value_text
-from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.values.constants import Constant
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.literals import Rule
@@ -111,9 +110,6 @@ def begins_at_once(node: ir.Behavior, index: int) -> bool:
 
 # --- what an event hands over ---------------------------------------------------------------------
 
-ORDERLESS = frozenset({"equalTo", "notEqualTo"})
-"""Rules for what is no number."""
-
 
 def set_parameters(ctx: Context, emission: ir.Emit) -> tuple[xml.ActionPart, ...]:
     """Return the actions that set what an emission hands over.
@@ -132,14 +128,7 @@ def set_parameters(ctx: Context, emission: ir.Emit) -> tuple[xml.ActionPart, ...
 def parameter_condition(
     ctx: Context, argument: ir.EventArgument, rule: Rule, value: Constant
 ) -> xml.ByValueCondition:
-    """Return the condition on what an event has handed over.
-
-    Raises:
-        Inexpressible: Only numbers can be less or greater.
-    """
-    is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
-    if not is_number and rule not in ORDERLESS:
-        raise Inexpressible("an order of what is no number", argument.span)
+    """Return the condition on what an event has handed over."""
     if not isinstance(value, (int, float)):
         ctx.require_support("ParameterCondition/text", argument.span)
     variable = _variable(ctx, argument.event, argument.parameter, value)

@@ -9,9 +9,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from math import floor, sqrt
-from typing import NamedTuple, Protocol
+from typing import NamedTuple, Protocol, cast
 
-from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx_runtime.enums import DynamicProfile
 from osc2tx_runtime.world.actor_dimensions import (
     CATEGORIES,
@@ -65,15 +64,8 @@ class Pace(NamedTuple):
 
     @property
     def told(self) -> tuple[DynamicProfile, float | None, float | None]:
-        """The same in terms of the runtime.
-
-        Raises:
-            Inexpressible: There is no such profile.
-        """
-        match self.profile:
-            case "none" | "constant" | "smooth" | "asap" as profile:
-                return profile, self.peak, self.duration
-        raise Inexpressible(f"`{self.profile}` is no profile of a rate")
+        """The same in terms of the runtime."""
+        return cast("DynamicProfile", self.profile), self.peak, self.duration
 
 
 FASTEST = Pace("asap")
@@ -121,7 +113,7 @@ def steepest(course: Course) -> tuple[float, float]:
     if step <= 0.0:
         return 0.0, 0.0
     if isinstance(course, Linear | Cosine | Quintic | SCurve):
-        rates = [course.rate(index * step) for index in _steepest_steps(course)]
+        rates = [course.rate(index * step) for index in range(STEPS + 1)]
     else:
         speeds = [course.value(index * step) for index in range(STEPS + 1)]
         rates = [(after - before) / step for before, after in pairwise(speeds)]
@@ -132,22 +124,3 @@ def steepest(course: Course) -> tuple[float, float]:
         round(faster, 6) if faster > 0.0 else 0.0,
         round(slower, 6) if slower > 0.0 else 0.0,
     )
-
-
-def _steepest_steps(course: Profile) -> Sequence[int]:
-    """Return the steps among which those with the greatest and the least rate are.
-
-    Where it is known, the others are left out: a rate that depends on open parameters is an
-    expression, which takes long to compute.
-    """
-    match course:
-        case Linear():
-            return (0, STEPS)
-        case Cosine():
-            return (0, STEPS // 2, STEPS)
-        case SCurve():
-            duration = float(course.duration)
-            near = [floor(float(kink) / duration * STEPS) for kink in course.kinks]
-            beside = {each + offset for each in near for offset in (-1, 0, 1, 2)}
-            return sorted({0, STEPS} | {each for each in beside if 0 < each < STEPS})
-    return range(STEPS + 1)

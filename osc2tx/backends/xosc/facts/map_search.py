@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Mapping, Sequence
-from typing import Any, NamedTuple, TypeVar, cast, get_args
+from typing import Any, NamedTuple, TypeVar, cast
 
 from osc2tx.backends.xosc.facts import refusing
 from osc2tx.backends.xosc.facts.curves import Waypoint
@@ -137,8 +137,6 @@ def points_of_route(
         Inexpressible: There is no such way.
     """
     parts = [_element(each) for each in elements]
-    if connect_by not in get_args(ConnectRoutePoints):
-        raise Inexpressible(f"`{connect_by}` is nothing that points can stand for")  # §8.12.29
     poses = poses_of_route(roads.map, parts, cast("ConnectRoutePoints", connect_by))
     return tuple(Waypoint(0.0, pose.x, pose.y, pose.z, pose.yaw) for pose in poses)
 

@@ -29,9 +29,7 @@ from osc2tx_runtime.world.geometry.lane_neighbours import (
     lanes_to_left,
     offset_from,
 )
-from osc2tx_runtime.world.geometry.lane_neighbours import (
-    lane_beside as lane_either_way,
-)
+from osc2tx_runtime.world.geometry.lane_neighbours import lane_beside as lane_either_way
 from osc2tx_runtime.world.longitudinal.bends_ahead import BendsAhead
 from osc2tx_runtime.world.surroundings.traffic_light_lamps import Lamp, lamps_that_mean, meaning_of
 from osc2tx_runtime.world.surroundings.traffic_light_states import Signals

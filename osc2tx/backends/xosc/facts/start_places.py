@@ -112,15 +112,12 @@ def plan_starts(
     Raises:
         Inexpressible: There is no plan, or only the run can tell whether it is kept.
     """
-    kind = next((known for known in schedule.SPANS if known == overlap), None)
-    if kind is None:
-        raise Inexpressible(f"`{overlap}` is no overlap", span)
     planned = [
         schedule.Part(name, None if length is None else round(length * MILLISECONDS), is_open)
         for name, length, is_open in parts
     ]
     try:
-        sts, ete = schedule.spans_of(kind, _steps(start_to_start), _steps(end_to_end))
+        sts, ete = schedule.spans_of(overlap, _steps(start_to_start), _steps(end_to_end))
         plan = schedule.make_schedule(planned, sts, ete)
     except schedule.Unplannable as error:
         raise Inexpressible(f"the overlap `{overlap}` has no plan: {error}", span) from None

@@ -10,11 +10,7 @@ from collections import Counter, defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 
 from osc2tx import ir
-from osc2tx.backends.xosc.conditions.event_conditions import (
-    early_triggers,
-    emitted_by,
-    triggers_of,
-)
+from osc2tx.backends.xosc.conditions.event_conditions import early_triggers, emitted_by, triggers_of
 from osc2tx.backends.xosc.conditions.expressions import condition_flow
 from osc2tx.backends.xosc.conditions.flow import NEVER, Flow, Test, at_time, single
 from osc2tx.backends.xosc.context import Context

@@ -14,11 +14,7 @@ from typing import assert_never
 from osc2tx import ir
 from osc2tx.backends.xosc.conditions.flow import NEVER, Flow, all_of, any_of, are_few, chosen
 from osc2tx.backends.xosc.context import Context
-from osc2tx.backends.xosc.flattening.builder import (
-    RUN_START,
-    StoryboardBuilder,
-    construct_of,
-)
+from osc2tx.backends.xosc.flattening.builder import RUN_START, StoryboardBuilder, construct_of
 from osc2tx.backends.xosc.flattening.directives import call, emit, finish, react
 from osc2tx.backends.xosc.flattening.durations import Role, end_within_duration
 from osc2tx.backends.xosc.flattening.leaves import end_open_actions, invoke

@@ -12,10 +12,7 @@ from osc2tx.backends.xosc.actions.speed.courses import ends_evenly, hold_speed, 
 from osc2tx.backends.xosc.actions.user_actions import user_action
 from osc2tx.backends.xosc.conditions.flow import Flow, Test
 from osc2tx.backends.xosc.context import Context
-from osc2tx.backends.xosc.flattening.builder import (
-    RUN_START,
-    StoryboardBuilder,
-)
+from osc2tx.backends.xosc.flattening.builder import RUN_START, StoryboardBuilder
 from osc2tx.backends.xosc.flattening.directives import invoke_global
 from osc2tx.backends.xosc.flattening.durations import time_frame
 from osc2tx.backends.xosc.flattening.tree_queries import entry_of
@@ -49,7 +46,7 @@ def invoke(builder: StoryboardBuilder, node: ir.Invoke, start: Flow) -> Flow:
     leaf = Leaf(ctx, node, member, name, is_start=is_start, time_left=left, time_limit=limit)
     ctx.present.add(member.name)
     performance = Performance((), "instant")
-    with ctx.report_as(leaf.construct, node.span):
+    with ctx.report_as(leaf.arguments.construct, node.span):
         try:
             performance = leaf_handler(leaf)
         except ArithmeticError as error:

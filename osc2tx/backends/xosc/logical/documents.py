@@ -35,13 +35,7 @@ from osc2tx.backends.xosc.logical.sampling import Choosing, Domain, Row, inward
 from osc2tx.options import XmlVersion
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.arithmetic import Range
-from osc2tx.xosc.comparison import (
-    Limits,
-    Place,
-    differences,
-    undefined,
-    with_covering_limits,
-)
+from osc2tx.xosc.comparison import Limits, Place, differences, undefined, with_covering_limits
 from osc2tx.xosc.element import Element
 from osc2tx_shared.classes import dataclass, replace
 

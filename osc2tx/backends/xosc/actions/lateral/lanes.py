@@ -170,7 +170,7 @@ def _dynamics(leaf: Leaf, shape: DynamicsShape, time: float) -> xml.LaneChangeAc
         if speed:
             dimension, value = "distance", value * speed
         if speed and speed != leaf.state.known_speed:
-            leaf.approximate(
+            leaf.arguments.approximate(
                 f"{tool.name} asks for its distance, and the speed may still be changing",
                 f"it goes over {value:.3g} m, {time:.3g} s at {speed:.3g} m/s; slower, it is"
                 " longer",

@@ -62,7 +62,7 @@ def offset_change(leaf: Leaf, offset: float, pace: Pace) -> Change:
     way, here = abs(offset - offset_of(leaf.state)), leaf.state.offset
     if here is None or not here.is_known:
         way = abs(offset) + 0.5 * LANE_WIDTH
-        leaf.doubt(
+        leaf.arguments.doubt(
             "how far it is from its place in the lane is only known during the run, and the XML"
             f" states no length for a change of the offset: it takes so long for {way:.3g} m"
         )

@@ -9,11 +9,7 @@ from __future__ import annotations
 from functools import partial
 
 from osc2tx.backends.xosc.actions.leaf import Leaf
-from osc2tx.backends.xosc.facts.actors import (
-    Linear,
-    Pace,
-    course_of_shift,
-)
+from osc2tx.backends.xosc.facts.actors import Linear, Pace, course_of_shift
 from osc2tx.backends.xosc.facts.maps import LanePosition
 from osc2tx.backends.xosc.state import ActorState
 from osc2tx.xosc import elements as xml
@@ -32,7 +28,7 @@ def shift(
     if jumps:
         return "step", 0.0
     if leaf.state.offset is None and pace.profile != "constant":
-        leaf.doubt(
+        leaf.arguments.doubt(
             "it takes over the lateral speed of the change before; one of the XML begins without"
             " any"
         )

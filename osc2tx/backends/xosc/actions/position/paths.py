@@ -139,7 +139,7 @@ def note_steering(leaf: Leaf, *, is_timed: bool = False) -> None:
         else "it steers along the way as physics allows, through corners and into its lane at the"
         " end; the XML is on the line"
     )
-    leaf.doubt(reason, ON_THE_LINE)
+    leaf.arguments.doubt(reason, ON_THE_LINE)
 
 
 def _time(leaf: Leaf, corners: Sequence[Waypoint]) -> float | None:

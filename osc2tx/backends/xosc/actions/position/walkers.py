@@ -7,20 +7,18 @@ a trajectory takes it across the road.
 from __future__ import annotations
 
 import math
-from functools import lru_cache
 
 from osc2tx.backends.xosc.actions.leaf import Change, Leaf
 from osc2tx.backends.xosc.actions.position.paths import follow
 from osc2tx.backends.xosc.actions.speed.courses import speed_action
 from osc2tx.backends.xosc.actions.speed.speed_changes import jump_to
 from osc2tx.backends.xosc.entities.cast import PEDESTRIAN
-from osc2tx.backends.xosc.facts.actors import FASTEST, Profile, SCurve, course_of_speed
+from osc2tx.backends.xosc.facts.actors import FASTEST, Profile, course_of_speed
 from osc2tx.backends.xosc.facts.curves import Waypoint, thinned
 from osc2tx.backends.xosc.facts.maps import Pose
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.state import WAY, known
 from osc2tx.xosc import elements as xml
-from osc2tx.xosc.expressions import Symbol
 from osc2tx.xosc.literals import DynamicsShape
 from osc2tx_shared.classes import replace
 
@@ -61,7 +59,7 @@ def stand(leaf: Leaf) -> Change:
     state, speed = leaf.state, leaf.state.known_speed
     if state.pose is None or speed is None:
         change = jump_to(leaf, 0.0)
-        leaf.doubt("where it stops is only known during the run, so it stops at once")
+        leaf.arguments.doubt("where it stops is only known during the run, so it stops at once")
         return change
     course = course_of_speed(speed, 0.0, FASTEST, leaf.limits)
     return walk(leaf, course, course.duration)
@@ -109,15 +107,6 @@ def _ahead(pose: Pose, way: float) -> Pose:
 
 
 def _covered(course: Profile, time: float) -> float:
-    """Return the way (m) covered after a time."""
-    if not isinstance(course, SCurve):
-        return _summed(course, time)
-    numbers = (time, course.start, course.end, course.limit, course.jerk, course.start_rate)
-    is_open = any(isinstance(each, Symbol) for each in numbers)
-    return _summed(course, time) if is_open else _known_way(course, time)
-
-
-def _summed(course: Profile, time: float) -> float:
     """Return the way (m) covered after a time: Simpson's rule, then the speed at the end."""
     changing = min(time, course.duration)
     step = changing / PIECES
@@ -130,7 +119,3 @@ def _summed(course: Profile, time: float) -> float:
         before, speed = speed, course.value(right)
         way += (before + 4.0 * course.value(0.5 * (left + right)) + speed) / 6.0 * step
     return way
-
-
-_known_way = lru_cache(maxsize=4096)(_summed)
-"""The same; documents of one scenario for several values share most walks."""

@@ -33,7 +33,7 @@ def _set_lights(leaf: Leaf) -> Performance:
         raise Inexpressible(f"there is no counterpart of the light mode `{mode}`")
     # The schema of 1.2 asks for both alternatives of each choice at once.
     if ctx.version < "1.3":
-        leaf.approximate(
+        leaf.arguments.approximate(
             f"a light is not in OpenSCENARIO XML {ctx.version}",
             "the lights stay as they are; nothing that moves and no event is affected",
             Remedy(version="1.3"),

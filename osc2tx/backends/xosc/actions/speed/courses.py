@@ -113,7 +113,7 @@ def in_steps(leaf: Leaf, performance: Performance) -> tuple[xml.ActionPart, ...]
     length = course.duration / max(count, 1)
     if count < 2 or length <= 2.0 * TICK:
         return ()
-    leaf.approximate(
+    leaf.arguments.approximate(
         f"{leaf.ctx.profile.name} takes up a speed at once, so it changes in {count} steps",
         "off by the way that each of them takes, more where throttle and brakes are not enough",
         GENERIC,

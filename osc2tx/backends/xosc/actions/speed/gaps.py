@@ -104,7 +104,7 @@ def reach(leaf: Leaf, gap: Gap, *, keeps: bool, missing: float | None = None) ->
     tool, newer = leaf.ctx.profile, leaf.ctx.version >= "1.1"
     if is_rigid and not gap.is_time and "LongitudinalDistanceAction" in tool.unsupported:
         name = gap.reference.name
-        leaf.approximate(
+        leaf.arguments.approximate(
             f"{tool.name} controls no gap; it gets the speed of {name} in each step",
             "off by the way that it takes to change its speed",
             GENERIC,
@@ -131,7 +131,7 @@ def reach(leaf: Leaf, gap: Gap, *, keeps: bool, missing: float | None = None) ->
         coordinateSystem="lane" if newer else None,
     )
     if is_rigid and gap.is_time and leaf.state_of(gap.reference, always=True).known_speed is None:
-        leaf.doubt("a time gap without limits follows each change of a speed at once")
+        leaf.arguments.doubt("a time gap without limits follows each change of a speed at once")
     return leaf.at_open_speed(longitudinal(action), inf if keeps else None)
 
 
@@ -140,7 +140,7 @@ def _reach_sideways(leaf: Leaf, gap: Gap, *, keeps: bool, missing: float | None)
         raise Inexpressible("there is no time across the road in OpenSCENARIO XML")
     newer = leaf.ctx.version >= "1.1"
     if not newer:
-        leaf.doubt(
+        leaf.arguments.doubt(
             "OpenSCENARIO XML 1.0 counts a lateral distance across the actor, not across the road",
             Remedy(version="1.1"),
         )
@@ -181,7 +181,7 @@ def _note_control(leaf: Leaf, missing: float | None) -> None:
         bound = Metres(missing, "until it is there")
     # The standard has no law for the control of gaps.
     how = "how it closes the gap, and when it is there, is up to the tool"
-    leaf.approximate(how, bound, ARRIVING)
+    leaf.arguments.approximate(how, bound, ARRIVING)
 
 
 def _measured(leaf: Leaf, gap: Gap) -> tuple[float, bool]:
@@ -208,7 +208,7 @@ def _change_gap(leaf: Leaf) -> Performance:
     change = reach(leaf, gap, keeps=False)
     if leaf.node.duration is not None:
         leaf.ctx.report.approximate(
-            leaf.construct,
+            leaf.arguments.construct,
             leaf.node.duration.span,
             "an action on a distance takes as long as the tool wants",
             "the distance is reached, but not at that time",

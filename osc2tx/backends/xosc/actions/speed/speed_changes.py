@@ -153,7 +153,7 @@ def _longest(leaf: Leaf, target: float, profile: str, rate: float) -> float:
     duration = course_of_speed(farthest, target, Pace(profile, rate), leaf.limits).duration
     reason = f"{tool} knows no rates, and the speed at the start is only known in the run"
     bound = f"it takes {duration:.3g} s, as from {farthest:.3g} m/s, the longest that it may take"
-    leaf.approximate(reason, bound, GENERIC)
+    leaf.arguments.approximate(reason, bound, GENERIC)
     return duration
 
 
@@ -211,7 +211,7 @@ def _note_acceleration(leaf: Leaf) -> None:
         return
     if rate is None and has_profiles and leaf.ctx.profile.carries_acceleration:
         return  # it takes over that of a change that is interrupted, not of one that is over
-    leaf.doubt(
+    leaf.arguments.doubt(
         "it takes over the acceleration of the change before; one of the XML begins without any",
         Remedy(version=None if has_profiles else "1.2", profile="esmini"),
     )

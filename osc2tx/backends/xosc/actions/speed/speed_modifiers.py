@@ -120,11 +120,8 @@ def _rate_beside(leaf: Leaf) -> float | None:
 
 def _relative(leaf: Leaf, call: Arguments, name: str, difference: float) -> Change:
     """Return the change to a speed relative to that of another actor."""
-    reference = call.entity(name)
-    factor = call.number("factor")
+    reference, factor = call.required_entity(name), call.number("factor")
     difference *= RELATIVE[name]
-    if reference is None:
-        raise Inexpressible(f"`{name}` names no actor")
     if factor not in (None, 1.0) and difference != 0.0:
         raise Inexpressible("a factor and a difference at once")
     if factor == 1.0:
