@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import inf
 
 from osc2tx import ir
-from osc2tx.backends.xosc.actions.lateral.shifts import lateral
+from osc2tx.backends.xosc.actions.lateral.lanes import lateral
 from osc2tx.backends.xosc.actions.leaf import Change, Leaf, Performance
 from osc2tx.backends.xosc.actions.registry import ACTIONS, GLOBAL_ACTIONS, WITHOUT_FORM
 from osc2tx.backends.xosc.actions.speed.courses import ends_evenly, hold_speed, in_steps

@@ -11,12 +11,15 @@ from osc2tx.backends.xosc.actions.arguments import Arguments
 from osc2tx.backends.xosc.actions.lateral.lanes import (
     LANE_WIDTH,
     NO_ONE_SIDE,
+    along_t,
     lane_change,
     lanes_aside,
     lanes_to,
     lanes_to_segment,
+    lateral,
+    offset_of,
+    shift,
 )
-from osc2tx.backends.xosc.actions.lateral.shifts import along_t, lateral, offset_of, shift
 from osc2tx.backends.xosc.actions.leaf import Change, Changes, Leaf, Performance
 from osc2tx.backends.xosc.actions.registry import action, apply_modifiers, modifier
 from osc2tx.backends.xosc.actions.speed.gaps import Gap, reach

@@ -13,7 +13,7 @@ from typing import Literal, TypeAlias
 
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.arguments import Arguments
-from osc2tx.backends.xosc.actions.lateral.shifts import lateral
+from osc2tx.backends.xosc.actions.lateral.lanes import lateral
 from osc2tx.backends.xosc.actions.leaf import Change, Leaf, Performance
 from osc2tx.backends.xosc.actions.registry import action, apply_modifiers, to_goal
 from osc2tx.backends.xosc.actions.speed.courses import longitudinal, speed_action, speed_of
