@@ -238,6 +238,16 @@ def test_a_doubt_about_a_document_that_is_not_played_stays(tmp_path: Path, allow
     assert codes(compilation) == ([] if allow else ["OSC515"])
 
 
+def test_a_document_that_is_not_played_says_so(tmp_path: Path) -> None:
+    path = tmp_path / "top.osc"
+    path.write_text(TEXT, encoding="utf-8")
+    options = CompileOptions(xml=XmlOptions(verify=False))
+    (found,) = Compilation(path, path.name, options).graded_xml
+    assert found.xml is not None and found.report_json is not None
+    report = json.loads(found.report_json)
+    assert report["unmeasured"] == "`--no-verify`" and report["losses"] == []
+
+
 DRAWN = """import osc.standard.all
 
 namespace null use std, stdtypes
