@@ -23,7 +23,7 @@ from osc2tx_shared.classes import dataclass, replace
 
 @dataclass
 class Found:
-    """What became of a document.
+    """The result of a document.
 
     Attributes:
         source: Its file; `None` for standard input.
@@ -56,7 +56,7 @@ class Batch:
     _done: dict[Path, Found | None] = field(default_factory=dict)
 
     def run(self, sources: Sequence[Path | None], name: str | None = None) -> list[Found]:
-        """Return what becomes of documents, and of the scenarios that distributions name.
+        """Return the results of documents, and of the scenarios that distributions name.
 
         A scenario comes before those that inherit it; of catalogs, which others use, there is none.
 
@@ -133,7 +133,7 @@ class Batch:
         yield found
 
     def _import(self, source: Path | None, alike: Sequence[Imported]) -> Found | None:
-        """Return what becomes of a document.
+        """Return the result of a document.
 
         Args:
             source: Its file.

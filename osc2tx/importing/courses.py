@@ -168,8 +168,9 @@ class Courses:
 
     def stops_of(self, route: Node) -> list[LanePosition]:
         """Return the waypoints of a route in lanes; none if they are not known."""
+        if self._ground.map is None:
+            return []
         try:
-            assert self._ground.map is not None
             return waypoints(self._ground.resolved(route), self._ground.bodies, self._ground.map)
         except UNKNOWN:
             return []
@@ -181,6 +182,14 @@ class Courses:
             return False
         ways = (road_map.route_distance(a, b) for a, b in pairwise(stops))
         return all(way is not None and way > 0.0 for way in ways)
+
+    def reached(self, start: LanePosition, goal: LanePosition) -> LanePosition:
+        """Return the end of a route in the lane that leads there: a route changes no lanes."""
+        road_map = self._ground.map
+        assert road_map is not None
+        length = road_map.route_distance(start, goal) or 0.0
+        there = road_map.advance(start, length, road_map.route_to(goal)).position
+        return goal._replace(lane=there.lane) if there.road == goal.road else goal
 
     def leads_on(self, start: LanePosition, goal: LanePosition) -> bool:
         """Whether a lane leads to a place without a choice of branches."""

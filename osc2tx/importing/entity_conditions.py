@@ -72,13 +72,7 @@ class EntityConditions:
                 part = _part(node, f"{a}.velocity.translational")
                 return self._compared(node, part or f"{a}.speed", SPEED)
             case "RelativeSpeedCondition":
-                node.text("direction")
-                b = self._actor(node)
-                value = self._values.quantity(node, "value", SPEED)
-                sign = COMPARISONS[node.said("rule")]
-                if not value.is_open and value.value == 0.0:
-                    return f"{a}.speed {sign} {b}.speed"
-                return f"{a}.speed - {b}.speed {sign} {value.within(SUM)}"
+                return self._relative_speed(node, said, a)
             case "AccelerationCondition":
                 whole = f"{a}.acceleration.translational"
                 return self._compared(node, _part(node, whole) or f"{whole}.norm()", ACCELERATION)
@@ -204,6 +198,29 @@ class EntityConditions:
                 return f"{way} > 0m and {met}({behind}.speed + {ahead}.speed)"
         node.approximate("the time to collision counts from the velocities of both boxes")
         return self._compared(node, f"{a}.time_to_collision({b})", TIME)
+
+    def _relative_speed(self, node: Node, said: str, a: str) -> str:
+        """Return the condition on a difference of speeds, along the axes of the first actor."""
+        b, mine, sign = self._actor(node), f"{a}.speed", "-"
+        other, rule = f"{b}.speed", COMPARISONS[node.said("rule")]
+        if node.has("direction"):
+            mine, other = (_part(node, f"{each}.velocity.translational") or "" for each in (a, b))
+            reference = self._values.text(node, "entityRef")
+            is_level = node.said("direction") == "vertical"
+            if not is_level and self._look_apart(said, reference):
+                sign = "+"
+            if not is_level and not all(self._actors[each].is_free for each in (said, reference)):
+                node.approximate(f"the speed of {b} counts along its own axes, as at the start")
+        value = self._values.quantity(node, "value", SPEED)
+        if not value.is_open and value.value == 0.0 and sign == "-":
+            return f"{mine} {rule} {other}"
+        return f"{mine} {sign} {other} {rule} {value.within(SUM)}"
+
+    def _look_apart(self, said: str, other: str) -> bool:
+        """Whether two actors look in opposite directions at the start."""
+        bodies = [self._places.bodies.get(each) for each in (said, other)]
+        headings = [each.pose.h for each in bodies if each is not None and each.pose is not None]
+        return len(headings) == 2 and math.cos(headings[0] - headings[1]) < 0.0
 
     def _look_alike(self, said: str, other: str) -> bool:
         """Whether two actors look in the same direction at the start."""

@@ -15,19 +15,14 @@ from osc2tx.xosc.player.places import place_of, trajectory_way
 from osc2tx.xosc.player.scene import Scene
 from osc2tx.xosc.player.shapes import Way, on_way
 from osc2tx.xosc.player.ways import Ways
-from osc2tx_runtime.opendrive import LanePosition, MapError, RoadMap, read_map
+from osc2tx_runtime.opendrive import GeoReference, LanePosition, MapError, RoadMap, read_map
+from osc2tx_runtime.opendrive.reader import MapContent
 
-UNKNOWN = (
-    Unplayable,
-    Unresolved,
-    MapError,
-    ArithmeticError,
-    ValueError,
-    LookupError,
-    AssertionError,
-    AttributeError,
-)
+UNKNOWN = (Unplayable, Unresolved, MapError, ArithmeticError, ValueError, LookupError)
 """What places raise that refer to what is not there."""
+
+NO_ROADS = RoadMap(MapContent("", "", {}, {}, (), (), (), GeoReference(), {}, ()))
+"""The map of a document without one."""
 
 
 class Ground:
@@ -46,6 +41,7 @@ class Ground:
                 self.map = read_map(document.map_file)
             except MapError:
                 self.map = None
+        self._roads = NO_ROADS if self.map is None else self.map
         self.bodies: dict[str, Body] = {}
         self._place_bodies()
         self._put_on_ways()
@@ -71,17 +67,15 @@ class Ground:
                 del waiting[name]
                 found = self._static(position)
                 body_ = self.bodies.get(name)
-                if found is not None and body_ is not None and self.map is not None:
+                if found is not None and body_ is not None:
                     try:
-                        body_.put(self.map, *found)
+                        body_.put(self._roads, *found)
                     except UNKNOWN:
                         continue
 
     def _put_on_ways(self) -> None:
         """Put entities on the trajectories that they follow from the start on."""
-        if self.map is None:
-            return
-        ways = Ways(Scene(self.bodies, self.map, 0.0))
+        ways = Ways(Scene(self.bodies, self._roads, 0.0))
         for private in privates(self._document.resolved):
             body = self.bodies.get(private.get("entityRef") or "")
             if body is None:
@@ -101,10 +95,7 @@ class Ground:
     def _static(self, position: Element) -> tuple[LanePosition | Pose, float | None] | None:
         """Return the place of a resolved position at the start; `None` if it is not known."""
         try:
-            inner = position.inner
-            if self.map is None and inner.tag != "WorldPosition":
-                return None
-            return place_of(inner, self.bodies, self.map)  # type: ignore[arg-type]
+            return place_of(position.inner, self.bodies, self._roads)
         except UNKNOWN:
             return None
 
@@ -125,8 +116,7 @@ class Ground:
         """Return a place in the world."""
         if isinstance(place, Pose):
             return place
-        assert self.map is not None
-        return Pose(*self.map.pose(place)[:2], 0.0)
+        return Pose(*self._roads.pose(place)[:2], 0.0)
 
     def coordinates(self, position: Node) -> tuple[float, float] | None:
         """Return where a place is in the world, if that is known."""
@@ -146,9 +136,7 @@ class Ground:
             here: Where a curve begins that begins with its actor.
         """
         try:
-            return trajectory_way(
-                self.resolved(node), self.bodies, self.map, here  # type: ignore[arg-type]
-            )
+            return trajectory_way(self.resolved(node), self.bodies, self._roads, here)
         except UNKNOWN:
             return None
 
@@ -157,9 +145,8 @@ class Ground:
         run = body.actions.get(LATERAL)
         if run is not None and run.way:
             return on_way(run.way, run.points, run.driven + way)
-        assert self.map is not None
         if body.place is None:
             x, y, h = body.here
             return Pose(x + way * math.cos(h), y + way * math.sin(h), h)
-        ahead = self.map.advance(body.place, way * body.along, body.route)
+        ahead = self._roads.advance(body.place, way * body.along, body.route)
         return self.pose_of(ahead.position)

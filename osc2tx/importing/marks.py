@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from osc2tx.importing.cursor import Node
 from osc2tx.importing.document import Document
 from osc2tx.importing.names import Names, snake
 from osc2tx.importing.program import Declared
@@ -34,10 +35,13 @@ class Marks:
             for node in root.below(xml.VariableDeclaration)
         }
         self._set: dict[str, set[str]] = {}
+        self._modified: set[str] = set()
         for action in document.resolved.below(xml.VariableAction):
             for each in action.children:
                 said = action.get("variableRef") or ""
                 self._set.setdefault(said, set()).add(_plain(each.get("value") or ""))
+                self._modified |= {said} if each.tag == "ModifyAction" else set()
+        self._now = {**document.parameters, **self._initial}
         self._events: dict[tuple[str, str], str] = {}
         self._kept: dict[str, str] = {}
 
@@ -51,6 +55,26 @@ class Marks:
             self._report.names[f"variable {name} = {value}"] = self._events[key]
         return self._events[key]
 
+    def set_to(self, name: str, value: str) -> str:
+        """Return the event with which a variable or parameter has a value."""
+        self._now[name] = value
+        return self.event(name, value)
+
+    def changed(self, name: str, by: Node) -> str | None:
+        """Return the event with which a variable or parameter is changed by an amount or a factor.
+
+        The changes are taken to come in the order of the document. `None`: there is no number.
+
+        Args:
+            name: The variable or parameter.
+            by: `AddValue` or `MultiplyByValue`.
+        """
+        try:
+            now, value = float(self._now[name]), float(by.text("value") or "")
+        except (KeyError, ValueError):
+            return None
+        return self.set_to(name, f"{now + value if by.tag == 'AddValue' else now * value:.12g}")
+
     def kept(self, event: str) -> str:
         """Return the `bool` that tells whether an event has come."""
         if event not in self._kept:
@@ -63,7 +87,7 @@ class Marks:
         `None`: it does not have it then, or it may get it again, or there are several such events.
         """
         others = self._set.get(name, set())
-        if name in self._measured or self._initial.get(name) != _plain(value):
+        if name in self._measured | self._modified or self._initial.get(name) != _plain(value):
             return None
         if len(others) != 1 or _plain(value) in others:
             return None

@@ -35,8 +35,10 @@ class Offsets(Reader):
             yield Effect(statement, actor.name, frozenset((LATERAL,)))
 
     def _lane_change(self, node: Node, said: str, actor: Actor) -> Statement | None:
-        target = node.one("LaneChangeTarget").inner
+        target, before = node.one("LaneChangeTarget").inner, self._lane_of(said)
         lanes, reference = self._lanes_to(target, said)
+        after = self._lane_of(said)
+        is_along = before is None or after is None or before * after > 0
         if lanes is None:
             target.leave_out("which lane the actor is in is not known before the run")
             node.use_all()
@@ -66,6 +68,8 @@ class Offsets(Reader):
         value = self._values.quantity(dynamics, "value", of_dynamics(dynamics))
         length: float | None = None
         if shape == "step" or value.value <= 0.0:
+            if is_along and "offset" not in arguments:
+                return self._at_once(actor, lanes, reference or actor.name)
             dynamics.approximate("a jump to another lane is a quick change here")
             arguments |= {"rate_profile": "constant", "duration": "0.1s"}
             return Statement(call(actor.name, "change_lane", **arguments), length=0.1)
@@ -97,6 +101,18 @@ class Offsets(Reader):
                 length = value.value / now.value
                 arguments["duration"] = literal(round(length, 6), TIME)
         return Statement(call(actor.name, "change_lane", **arguments), length=length)
+
+    @staticmethod
+    def _at_once(actor: Actor, lanes: int, reference: str) -> Statement:
+        """Return what puts an actor into another lane, where it is along the road."""
+        side = "left" if lanes > 0 else "right"
+        count = "" if abs(lanes) == 1 else f"{abs(lanes)}, "
+        lane = f"lane({count}side_of: {reference}, side: {side})"
+        modifiers = [
+            lane if lanes else f"lane(same_as: {reference})",
+            f"position(0m, ahead_of: {actor.name})",
+        ]
+        return Statement(call(actor.name, "assign_position"), modifiers=modifiers, length=0.0)
 
     def _along(self, said: str) -> int:
         """Return 1 for an actor in a lane along its road, -1 against it."""

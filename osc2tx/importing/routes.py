@@ -54,6 +54,7 @@ class Routes(Reader):
             node.leave_out("no route along lanes leads to its end")
             return None
         node.use_all()
+        stops[1] = self._places.courses.reached(*stops)
         if self._places.courses.leads_on(*stops):
             return None  # it goes there by itself
         way = self._places.points.route(stops, actor.name)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import field
 
 from osc2tx.importing.actions import Actions
@@ -148,6 +149,7 @@ class BoardReader:
         self._actions, self._conditions = actions, conditions
         self._comments_of = comments_of
         self._maneuvers = 0
+        self._around: list[str] = []
         self.board = Board()
 
     def read(self, storyboard: Node) -> Board:
@@ -157,8 +159,10 @@ class BoardReader:
             for act in story.children("Act"):
                 number += 1
                 first = len(self.board.steps)
-                self._act(act, number)
-                self._know("act", act, self.board.steps[first:])
+                with self._within(story):
+                    with self._within(act):
+                        self._act(act, number)
+                    self._know("act", act, self.board.steps[first:])
                 self._know("story", story, self.board.steps[first:])
             for each in story.children("ParameterDeclarations"):
                 if each.element.children:
@@ -167,7 +171,18 @@ class BoardReader:
         return self.board
 
     def _know(self, kind: str, node: Node, steps: Sequence[Step]) -> None:
-        self.board.elements.setdefault((kind, node.element.get("name") or ""), []).extend(steps)
+        """Note the steps of an element, by its name and by that with names of those around it."""
+        name = node.element.get("name") or ""
+        for index in range(len(self._around), -1, -1):
+            key = "::".join((*self._around[index:], name))
+            self.board.elements.setdefault((kind, key), []).extend(steps)
+
+    @contextmanager
+    def _within(self, node: Node) -> Iterator[None]:
+        """Let what is read be known as a part of an element."""
+        self._around.append(node.element.get("name") or "")
+        yield
+        self._around.pop()
 
     def _act(self, act: Node, number: int) -> None:
         trigger = self._conditions.trigger(act.find("StartTrigger"))
@@ -181,9 +196,11 @@ class BoardReader:
             for maneuver in self._maneuvers_of(group):
                 self._maneuvers += 1
                 start = len(self.board.steps)
-                for event in maneuver.children("Event"):
-                    self._event(event, actors, trigger, number, repeats)
-                self._know("maneuver", maneuver, self.board.steps[start:])
+                with self._within(group):
+                    with self._within(maneuver):
+                        for event in maneuver.children("Event"):
+                            self._event(event, actors, trigger, number, repeats)
+                    self._know("maneuver", maneuver, self.board.steps[start:])
             self._know("maneuverGroup", group, self.board.steps[first:])
 
     def _actors(self, group: Node) -> Iterator[str]:
@@ -239,5 +256,6 @@ class BoardReader:
         step.comments = self._comments_of(event.element)
         self.board.steps.append(step)
         self._know("event", event, [step])
-        for action in event.children("Action"):
-            self._know("action", action, [step])
+        with self._within(event):
+            for action in event.children("Action"):
+                self._know("action", action, [step])

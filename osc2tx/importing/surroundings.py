@@ -44,12 +44,11 @@ class Surroundings:
             case "VariableAction" | "ParameterAction":
                 kind = node.tag.removesuffix("Action").lower()
                 name = self._values.text(node, f"{kind}Ref")
-                setting = node.find("SetAction")
-                if setting is None:
-                    node.leave_out("variables are events here: they are set, not computed")
-                    return
-                value = self._values.text(setting, "value")
-                yield Effect(Statement(Emit(self._marks.event(name, value)), length=0.0))
+                event = self._change(node, name)
+                if event is None:
+                    node.leave_out("what it changes has no number before the run")
+                else:
+                    yield Effect(Statement(Emit(event), length=0.0))
             case "EnvironmentAction":
                 yield from self._environment(node)
             case "InfrastructureAction" if node.inner.tag == "TrafficSignalAction":
@@ -60,6 +59,15 @@ class Surroundings:
                 yield Effect(Statement(self._lights.switch(inner), length=0.0))
             case _:
                 node.leave_out("the language has no such action, or not for this document")
+
+    def _change(self, node: Node, name: str) -> str | None:
+        """Return the event that stands for the value that an action gives a variable."""
+        setting = node.find("SetAction")
+        if setting is not None:
+            return self._marks.set_to(name, self._values.text(setting, "value"))
+        by = node.one("ModifyAction").one("Rule").inner
+        node.approximate("changes of a variable are taken to come in the order of the document")
+        return self._marks.changed(name, by)
 
     def _environment(self, node: Node) -> Iterator[Effect]:
         reference = node.find("CatalogReference")

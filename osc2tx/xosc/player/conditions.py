@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_right
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import field
 
 from osc2tx.xosc import elements as xml
@@ -98,6 +98,16 @@ class Looked:
     past: Past = field(default_factory=Past)
 
 
+def _named(node: Element, around: tuple[str, ...]) -> Iterator[tuple[tuple[str, str], Element]]:
+    """Yield the elements of the storyboard by kind and name, also with names of those around."""
+    if node.tag in KINDS:
+        around = (*around, node.said("name"))
+        for index in range(len(around)):
+            yield (KINDS[node.tag], "::".join(around[index:])), node
+    for each in node.children:
+        yield from _named(each, around)
+
+
 class Conditions:
     """Evaluates the triggers of a document."""
 
@@ -107,11 +117,7 @@ class Conditions:
         self.tests: dict[int, Test] = {}
         self.triggers: dict[int, tuple[Sequence[Element], bool]] = {}
         self.last_false: dict[int, int] = {}  # of each group
-        self.named = {
-            (KINDS[node.tag], node.said("name")): node
-            for node in world.root.walk()
-            if node.tag in KINDS
-        }
+        self.named = dict(_named(world.root, ()))
 
     def fires(self, trigger: Element | None) -> bool:
         """Whether a trigger fires; all its conditions are looked at in each step."""

@@ -108,11 +108,20 @@ def _test_of(body: Body, node: Element, world: World) -> Test:
 
 
 def _relative_speed(body: Body, node: Element, world: World) -> Measure:
-    """Return the difference of two speeds; with a direction, along the first entity."""
+    """Return the difference of two speeds; with a direction, on an axis of the first entity."""
     other = world.bodies[node.said("entityRef")]
     if not node.get("direction"):
         return lambda: body.v - other.v
-    return lambda: body.v - other.v * math.cos(other.here.h - body.here.h)
+
+    def along() -> float:
+        turn = other.here.h - body.here.h
+        return body.v - other.v * math.cos(turn) + other.rate * math.sin(turn)
+
+    def across() -> float:
+        turn = other.here.h - body.here.h
+        return body.rate - other.v * math.sin(turn) - other.rate * math.cos(turn)
+
+    return _part(node, along, across)
 
 
 def _test_of_place(body: Body, node: Element, world: World) -> Test:
