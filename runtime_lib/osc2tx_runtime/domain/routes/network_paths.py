@@ -31,7 +31,7 @@ from osc2tx_runtime.domain.points_and_poses import (
 )
 from osc2tx_runtime.domain.routes.composed_routes import Element, MadeRoute, poses_of_route
 from osc2tx_runtime.domain.routes.lane_coordinates import place_of_odr, place_of_route
-from osc2tx_runtime.domain.routes.road_paths import way_through
+from osc2tx_runtime.domain.routes.road_paths import way_through, ways_through
 from osc2tx_runtime.errors import PlacementError
 from osc2tx_runtime.opendrive import DRIVING, LanePosition, MapError, RoadMap
 from osc2tx_runtime.opendrive import Pose as MapPose
@@ -116,7 +116,7 @@ def trajectory_in_world(road_map: RoadMap, trajectory: Trajectory) -> Trajectory
         poses = tuple(_pose(road_map, place) for place in places)
         return Trajectory(poses, times, trajectory.interpolation)
     lanes = [_on_lane(road_map, place) for place in places]
-    ways = [way_through(road_map, pair) for pair in pairwise(lanes)]
+    ways = list(ways_through(road_map, lanes))
     on_way: list[Pose] = [*ways[0][:1]] if ways else []
     stamps: list[float] = [*times[:1]] if ways else []
     for way, (begin, end) in zip(ways, pairwise(times), strict=True):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
 from osc2tx_runtime.domain.paths.path_curves import PathError
@@ -22,10 +22,38 @@ def way_through(road_map: RoadMap, places: Sequence[LanePosition]) -> tuple[Pose
         PathError: A position cannot be reached from the one before.
     """
     points: list[Pose] = []
-    for start, goal in pairwise(places):
-        part = way_between(road_map, start, goal)
+    for part in ways_through(road_map, places):
         points.extend(part if not points else part[1:])
     return tuple(points)
+
+
+def ways_through(
+    road_map: RoadMap, places: Sequence[LanePosition]
+) -> Iterator[tuple[Pose, ...]]:
+    """The parts of such a path, from each position to the next.
+
+    It follows the lanes in their direction of travel, except for lanes of the same road that carry
+    oncoming traffic: it moves over to a position ahead in such a lane, and on along it, as for
+    overtaking.
+
+    Raises:
+        PathError: A position cannot be reached from the one before.
+    """
+    sense = 0
+    for start, goal in pairwise(places):
+        own, other = (road_map.travel_direction(each.road, each.lane) for each in (start, goal))
+        sense = sense or own
+        is_ahead = start.road == goal.road and (goal.s - start.s) * sense > 0.0
+        if is_ahead and (own != sense or other != sense):
+            yield _along_road(road_map, start, goal)
+            continue
+        if own != sense:
+            raise PathError(
+                f"lane {start.lane} of road {start.road} carries oncoming traffic: a path leaves it"
+                " only towards a position ahead on the same road"
+            )
+        yield way_between(road_map, start, goal)
+        sense = other
 
 
 def way_between(road_map: RoadMap, start: LanePosition, goal: LanePosition) -> tuple[Pose, ...]:
@@ -67,6 +95,30 @@ def way_between(road_map: RoadMap, start: LanePosition, goal: LanePosition) -> t
     return tuple(points)
 
 
+def _along_road(road_map: RoadMap, start: LanePosition, goal: LanePosition) -> tuple[Pose, ...]:
+    """Points of a path along a road, of whose lanes one at least carries oncoming traffic."""
+    length = abs(goal.s - start.s)
+    begin = 0.0 if start.lane == goal.lane else max(0.0, length - _CHANGE)
+    if length - begin < _LEAST_CHANGE and start.lane != goal.lane:
+        raise _too_short(length - begin, start, goal)
+    count = max(2, math.ceil(length / _STEP))
+    points = []
+    for i in range(count + 1):
+        distance = length * i / count
+        s = start.s + (goal.s - start.s) * i / count
+        a, b = (road_map.pose(LanePosition(p.road, p.lane, s, p.offset)) for p in (start, goal))
+        w = _smooth(max(0.0, (distance - begin) / (length - begin)))
+        points.append(Pose(a.x + w * (b.x - a.x), a.y + w * (b.y - a.y), a.z + w * (b.z - a.z)))
+    return tuple(points)
+
+
+def _too_short(room: float, start: LanePosition, goal: LanePosition) -> PathError:
+    return PathError(
+        f"there are only {room:.1f} m to change from lane {start.lane} to lane {goal.lane} of road"
+        f" {goal.road}"
+    )
+
+
 def _walk(
     road_map: RoadMap, start: LanePosition, distances: Sequence[float], route: Route | None
 ) -> list[LanePosition | None]:
@@ -104,10 +156,7 @@ def _window(
     end = distances[last]
     begin = max(distances[first], end - _CHANGE)
     if end - begin < _LEAST_CHANGE:
-        raise PathError(
-            f"there are only {end - begin:.1f} m to change from lane {at_end.lane} to lane"
-            f" {goal.lane} of road {goal.road}"
-        )
+        raise _too_short(end - begin, at_end, goal)
     return begin, end
 
 

@@ -22,7 +22,7 @@ from osc2tx_runtime.domain.points_and_poses import (
     XyzPoint,
 )
 from osc2tx_runtime.domain.routes.lane_coordinates import place_of_odr, place_of_route
-from osc2tx_runtime.domain.routes.road_paths import way_between
+from osc2tx_runtime.domain.routes.road_paths import way_through
 from osc2tx_runtime.enums import PathInterpolation
 from osc2tx_runtime.language.actions.action import ActionOptions
 from osc2tx_runtime.language.actions.registry import LATERAL, action
@@ -105,7 +105,7 @@ class ChangePosition(CourseAction):
             place = on
         if here is None or road_map.lane_type(here.road, here.lane, here.s) not in DRIVING:
             raise PathError(f"{self.actor.id} is on no driving lane to start from")
-        return Path(way_between(road_map, here, place), "smooth")
+        return Path(way_through(road_map, (here, place)), "smooth")
 
     def _across(self, place: LanePosition | opendrive.Pose) -> Path:
         pose = self.world.map.pose(place) if isinstance(place, LanePosition) else place
