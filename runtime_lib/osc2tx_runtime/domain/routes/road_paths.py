@@ -27,9 +27,7 @@ def way_through(road_map: RoadMap, places: Sequence[LanePosition]) -> tuple[Pose
     return tuple(points)
 
 
-def ways_through(
-    road_map: RoadMap, places: Sequence[LanePosition]
-) -> Iterator[tuple[Pose, ...]]:
+def ways_through(road_map: RoadMap, places: Sequence[LanePosition]) -> Iterator[tuple[Pose, ...]]:
     """The parts of such a path, from each position to the next.
 
     It follows the lanes in their direction of travel, except for lanes of the same road that carry
