@@ -34,8 +34,8 @@ from osc2tx_runtime.opendrive import RoadMap
 from osc2tx_shared.classes import dataclass, replace
 from osc2tx_shared.map_files import map_places
 
-COARSE, FINE, FINEST = 0.05, 0.025, 0.01  # s: lengths of steps
-SUSPECT = 0.3  # m: the delay of events may hide so much, unless it shrinks with the steps
+COARSE, FINE, FINEST = 0.05, 0.02, 0.01  # s: lengths of steps
+SUSPECT = 0.3  # m: at coarse steps, the delay of events may hide so much
 LONGEST = 300.0  # s: as a run of the module
 MOST_ACTOR_STEPS = 60_000
 """Maximum number of steps of actors in a run; the part until then counts."""
@@ -135,11 +135,8 @@ class Measuring:
         allowed = EXACT + self._stated
         if fine.deviation.place - shrinking * FINE >= allowed:
             return replace(fine, is_faithful=fine.is_faithful and not self._is_doubted)
-        if fine.deviation.place < SUSPECT and not fine.deviation.problems:
-            return replace(fine, is_faithful=fine.is_faithful or not fine.deviation.is_at_fork)
         finest = self._at(FINEST, values)
-        shrinking = (fine.deviation.place - finest.deviation.place) / (FINE - FINEST)
-        left = finest.deviation.place - shrinking * FINEST
+        left = 2.0 * finest.deviation.place - fine.deviation.place
         is_step = left < allowed and not finest.deviation.problems
         is_step = is_step and not finest.deviation.is_at_fork
         return replace(finest, is_faithful=finest.is_faithful or is_step)

@@ -14,7 +14,8 @@ from osc2tx.backends.xosc.conditions.comparisons import (
     relative_distance,
 )
 from osc2tx.backends.xosc.context import Context
-from osc2tx.backends.xosc.entities.start_lanes import standing_heading
+from osc2tx.backends.xosc.entities.start_lanes import faces_along, standing_heading
+from osc2tx.backends.xosc.facts.maps import LanePosition, are_opposed
 from osc2tx.backends.xosc.report import NOTHING, Inexpressible, Remedy
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.literals import CoordinateSystem, Rule
@@ -79,6 +80,8 @@ def _signed(
     is_ahead, rule, value = ahead_is_positive, c.rule, c.value
     if value < 0.0:
         is_ahead, rule, value = not is_ahead, MIRRORED[rule], -value
+    if system == "road":
+        note_facing(ctx, c, freespace)
     has_order = direction == "longitudinal" and ctx.can("RelativeClearanceCondition", "1.2")
     if value == 0.0 and not freespace:  # only the order counts
         if not has_order:
@@ -151,6 +154,36 @@ def is_clear(ctx: Context, me: str, other: str, *, ahead: bool) -> xml.ByEntityC
             oppositeLanes=True,
         ),
     )
+
+
+def note_facing(ctx: Context, c: Comparison, freespace: bool) -> None:
+    """Report what a distance along the road depends on: how the other one looks, and its lane."""
+    mine, theirs = (_lane_at_start(ctx, name) for name in (c.actor, c.reference()))
+    if ctx.roads is not None and mine and theirs and are_opposed(ctx.roads.map, mine, theirs):
+        ctx.report.doubt(
+            c.name,
+            c.source.span,
+            f"no lane leads from {c.actor} to {c.reference()} or back as they start: distances are"
+            " along lanes in the world, and along the road in the XML",
+        )
+    if not freespace:
+        return
+    shape = next(m.shape for m in ctx.entities if m.name == c.reference())
+    is_even = abs(shape.front - shape.rear) < 1e-6
+    if not is_even and not faces_along(ctx, c.actor, c.reference()):
+        ctx.report.doubt(
+            c.name,
+            c.source.span,
+            f"{c.reference()} may look another way than {c.actor}, so that another end of it faces"
+            " it",
+        )
+
+
+def _lane_at_start(ctx: Context, name: str) -> LanePosition | None:
+    state = ctx.at_start.get(name)
+    if state is None or state.pose is None or ctx.roads is None:
+        return None if state is None else state.lane
+    return ctx.roads.locate(state.pose.x, state.pose.y, state.pose.z)
 
 
 def space_headway(ctx: Context, c: Comparison) -> Groups:

@@ -24,6 +24,7 @@ from osc2tx.backends.xosc.conditions.distances import (
     NO_SIGN,
     along_road,
     in_order,
+    note_facing,
     object_distance,
     overhang,
     space_headway,
@@ -80,6 +81,7 @@ def _between(ctx: Context, c: Comparison, *, is_ahead: bool, freespace: bool) ->
 
     The reference leads, or follows, where the time is positive.
     """
+    note_facing(ctx, c, freespace)
     rule, value = c.rule, c.value
     if value < 0.0:
         is_ahead, rule, value = not is_ahead, MIRRORED[rule], -value

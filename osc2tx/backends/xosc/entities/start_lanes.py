@@ -179,3 +179,19 @@ def stands(ctx: Context, entity: str) -> bool:
             if node.action not in STILL and (member is None or member.name == entity):
                 return False
     return True
+
+
+def faces_along(ctx: Context, me: str, other: str) -> bool:
+    """Whether two actors surely look the same way along their road, wherever they are on it."""
+    ways = [_way_along(ctx, name) for name in (me, other)]
+    return ways[0] is not None and ways[0] == ways[1]
+
+
+def _way_along(ctx: Context, entity: str) -> tuple[str, bool] | None:
+    """Return road and direction in which an actor set out along its lane; `None` if unknown."""
+    state, roads = ctx.at_start.get(entity), ctx.roads
+    if state is None or state.lane is None or roads is None:
+        return None
+    if state.pose is not None and math.cos(state.pose.h - roads.map.pose(state.lane).h) < 0.999:
+        return None
+    return state.lane.road, roads.map.travel_direction(state.lane.road, state.lane.lane) > 0

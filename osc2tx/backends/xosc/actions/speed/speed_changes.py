@@ -127,7 +127,7 @@ def _from_unknown(leaf: Leaf, target: float, pace: Pace) -> xml.PrivateAction:
         _note_acceleration(leaf)
     if profile in ("none", "asap") and leaf.ctx.can(PROFILE_ACTION, "1.2"):
         return within_limits(target, leaf.limits, pace)
-    limit = _limit_towards(leaf, target)
+    limit = _limit_towards(leaf, target, profile)
     share = {"asap": 1.0, "smooth": COMFORT * GENTLE}.get(profile, COMFORT)
     rate = round(share * limit, 6) if pace.peak is None else pace.peak
     curve: DynamicsShape = "sinusoidal" if profile == "smooth" else "linear"
@@ -163,7 +163,7 @@ def _curve(leaf: Leaf, pace: Pace) -> DynamicsShape:
     return "linear" if is_free else "sinusoidal"
 
 
-def _limit_towards(leaf: Leaf, target: float) -> float:
+def _limit_towards(leaf: Leaf, target: float, profile: str) -> float:
     """Return the limit of the acceleration on the way to a target.
 
     If only the run shows whether it has to go faster or slower, it is taken for granted that the
@@ -177,6 +177,12 @@ def _limit_towards(leaf: Leaf, target: float) -> float:
     taken = min(limits.acceleration, limits.deceleration)
     if speed is not None and aim is not None and aim != target and speed.low <= aim <= speed.high:
         taken = limits.acceleration if target > aim else limits.deceleration
+    if profile == "asap" and limits.acceleration != limits.deceleration:
+        leaf.arguments.doubt(
+            "whether it has to go faster or slower is only known during the run, so it changes at"
+            f" {taken:g} m/s^2 in both directions",
+            Remedy(version="1.2"),
+        )
     return taken
 
 
