@@ -69,6 +69,7 @@ class Names:
     def __init__(self, report: ImportReport, taken: Iterable[str] = ()) -> None:
         self._report = report
         self._taken = set(taken)
+        self._counts: dict[str, int] = {}
 
     def new(self, said: str, *, kind: str, base: str | None = None) -> str:
         """Return the name for something of the document.
@@ -81,9 +82,10 @@ class Names:
         wanted = base or snake(said)
         if wanted in reserved():
             wanted = f"{wanted}_{kind.split()[-1]}"
-        name, count = wanted, 2
+        name, base, count = wanted, wanted.rstrip("_"), self._counts.get(wanted, 2)
         while name in self._taken:
-            name, count = f"{wanted.rstrip('_')}_{count}", count + 1
+            name, count = f"{base}_{count}", count + 1
+        self._counts[wanted] = count
         self._taken.add(name)
         if said and said != name:
             self._report.names[f"{kind} {said}"] = name

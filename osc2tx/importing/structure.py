@@ -8,9 +8,10 @@ of two events is not known before the run, one overrides the other.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections import defaultdict
+from collections.abc import Callable, Collection, Hashable, Iterator, Mapping, Sequence
 from functools import cached_property
-from itertools import combinations, takewhile
+from itertools import combinations
 
 from osc2tx.importing.acts import blocks_of, without_own_start
 from osc2tx.importing.cast import Actor
@@ -52,17 +53,25 @@ class Structure:
         for step in (each for scope in self._scopes for each in scope):
             step.triggers = without_own_start(step, board)
         for scope in self._scopes:
+            members, at_once = set(scope), defaultdict[Hashable, list[Step]](list)
             for step in scope:
-                self._order(step, scope)
+                alike = at_once[_moment(step)]
+                self._order(step, members, alike)
+                alike.append(step)
 
     # --- who follows whom -------------------------------------------------------------------------
 
-    def _order(self, step: Step, scope: Collection[Step]) -> None:
-        """Put a step behind the one whose end starts it, or that it replaces at once."""
+    def _order(self, step: Step, scope: Collection[Step], alike: Sequence[Step]) -> None:
+        """Put a step behind the one whose end starts it, or that it replaces at once.
+
+        Args:
+            step: The step.
+            scope: The steps of its act, or of the document.
+            alike: Those before it that start when it does.
+        """
         found = [each for each in self._ends_in(step.trigger) if each is not step]
         if not found:
-            earlier = takewhile(lambda each: each is not step, scope)
-            found = [each for each in earlier if _replaces_at_once(step, each)][-1:]
+            found = [each for each in alike if _replaces_at_once(step, each)][-1:]
         if len(found) == 1 and found[0] in scope and not self._leads_to(step, found[0]):
             self._predecessor[step] = found[0]
             found[0].successors.append(step)
@@ -287,6 +296,17 @@ class Structure:
         whole.label = block.label if block.label in self._referred_labels else ""
         whole.length = None
         return whole
+
+
+def _moment(step: Step) -> Hashable:
+    """Return what is the same for steps that start at once, by their last triggers."""
+    return step.act, tuple(
+        tuple(
+            (each.kind, each.text, each.edge, each.element, each.state, each.quantity)
+            for each in group
+        )
+        for group in step.trigger.groups
+    )
 
 
 def _replaces_at_once(later: Step, earlier: Step) -> bool:
