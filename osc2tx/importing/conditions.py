@@ -12,7 +12,8 @@ from dataclasses import field
 from osc2tx.importing.cast import Actor
 from osc2tx.importing.cursor import Node
 from osc2tx.importing.dimensions import TIME, Quantity
-from osc2tx.importing.entity_conditions import EntityConditions, joined_by
+from osc2tx.importing.entity_conditions import EntityConditions
+from osc2tx.importing.expressions import joined_by
 from osc2tx.importing.marks import Marks
 from osc2tx.importing.place_conditions import COMPARISONS
 from osc2tx.importing.places import Places

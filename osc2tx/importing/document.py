@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
 
 from osc2tx.importing.reach import Reach
+from osc2tx.importing.substitution import (
+    scoped,
+    substituted,
+    with_each,
+    with_plain_names,
+    with_values,
+)
 from osc2tx.xosc import Element, Place, Unreadable, read
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.arithmetic import text_value
@@ -18,7 +24,6 @@ from osc2tx_shared.classes import dataclass
 
 CATALOG_SIZE = 20_000_000
 LONGEST_PATH = 200
-_PARAMETER = re.compile(r"\$([A-Za-z_]\w*)")
 
 
 class Refused(Exception):
@@ -69,7 +74,7 @@ class Document:
         comments: Sequence[Comment],
         folders: Folders = NOWHERE,
     ) -> None:
-        self.root = _scoped(_with_each(root, _named))
+        self.root = scoped(with_each(root, with_plain_names))
         self.path = path
         self.comments = comments
         self._folders = folders
@@ -177,7 +182,7 @@ class Document:
         values = declared | given
         children = [child for child in entry.children if child.tag != "ParameterDeclarations"]
         bare = entry.with_children(*children)
-        return (_substituted(bare, values) if values else bare), path
+        return (substituted(bare, values) if values else bare), path
 
     def _read_catalogs(self) -> dict[tuple[str, str], tuple[Element, Path]]:
         entries: dict[tuple[str, str], tuple[Element, Path]] = {}
@@ -222,7 +227,7 @@ class Document:
         if given:
             texts = {name: self.text_at(text) for name, text in node.attributes}
             node = node.with_attributes(texts)
-        return _with_each(node, self._resolve)
+        return with_each(node, self._resolve)
 
     def given(self, node: Element, kind: type[Element]) -> Iterator[Element]:
         """Yield the elements of a kind in a part with the entries of catalogs in it, as given."""
@@ -255,84 +260,6 @@ class Document:
             return None
 
 
-def read_in(text: str) -> set[str]:
-    """Return the names of the parameters that a text reads."""
-    return set(_PARAMETER.findall(text))
-
-
 def _is_odd(named: str) -> bool:
     """Whether no file has such a path."""
     return "\0" in named or len(named) > LONGEST_PATH
-
-
-def with_values(root: Element, values: Mapping[str, str]) -> Element:
-    """Return a document with other values of some of its parameters."""
-    children = [
-        (
-            node.with_children(*(_with_value(each, values) for each in node.children))
-            if node.tag == "ParameterDeclarations"
-            else node
-        )
-        for node in root.children
-    ]
-    return root.with_children(*children)
-
-
-def _with_value(node: Element, values: Mapping[str, str]) -> Element:
-    """Return a declaration with its value of a run."""
-    attributes = dict(node.attributes)
-    attributes["value"] = values.get(attributes.get("name", ""), attributes.get("value", ""))
-    return node.with_attributes(attributes)
-
-
-def _named(node: Element) -> Element:
-    """Return declarations of parameters whose names some documents begin with a `$`."""
-    if node.tag == "ParameterDeclarations":
-        return _with_each(node, _named)
-    name = node.get("name") or ""
-    if node.tag != "ParameterDeclaration" or not name.startswith("$"):
-        return node
-    return node.with_attributes({**dict(node.attributes), "name": name.lstrip("$")})
-
-
-def _scoped(node: Element) -> Element:
-    """Return an element in which the parameters of stories and maneuvers have their values."""
-    own = [each for each in node.children if each.tag == "ParameterDeclarations"]
-    if node.tag != "OpenSCENARIO" and own and own[0].children:
-        values = {
-            each.get("name") or "": each.get("value") or ""
-            for declarations in own
-            for each in declarations.children
-        }
-        kept = [each for each in node.children if each not in own]
-        return _scoped(_substituted(node.with_children(*kept), values))
-    return _with_each(node, _scoped)
-
-
-def _with_each(node: Element, changed: Callable[[Element], Element]) -> Element:
-    """Return an element with changed children; itself if none of them is another one."""
-    children = [changed(child) for child in node.children]
-    if all([one is other for one, other in zip(children, node.children, strict=True)]):
-        return node
-    return node.with_children(*children)
-
-
-def _substituted(node: Element, values: Mapping[str, str]) -> Element:
-    attributes = {name: _with_values(text, values) for name, text in node.attributes}
-    children = [_substituted(child, values) for child in node.children]
-    return node.with_attributes(attributes).with_children(*children)
-
-
-def _with_values(text: str, values: Mapping[str, str]) -> str:
-    if not text.startswith("$"):
-        return text
-    if text[1:] in values:
-        return values[text[1:]]
-
-    def inner(found: re.Match[str]) -> str:
-        said = values.get(found[1])
-        if said is None:
-            return found[0]
-        return f"({said[2:-1]})" if said.startswith("${") else f"({said})"
-
-    return _PARAMETER.sub(inner, text)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TypeAlias
 
 from osc2tx.xosc.arithmetic import CONSTANTS
@@ -179,3 +179,11 @@ def is_per_hour(node: Expression) -> bool:
         and isinstance(node.right, Number)
         and abs(node.right.value - 3.6) < 1e-9
     )
+
+
+def joined_by(word: str, texts: Sequence[str]) -> str:
+    """Return expressions joined by `and` or `or`, those of the other one in brackets."""
+    other = {"and": " or ", "or": " and "}[word]
+    if len(texts) == 1:
+        return texts[0]
+    return f" {word} ".join(f"({text})" if other in text else text for text in texts)

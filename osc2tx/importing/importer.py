@@ -13,7 +13,7 @@ from osc2tx.importing.conditions import Conditions
 from osc2tx.importing.cursor import Ledger
 from osc2tx.importing.declarations import Declarations
 from osc2tx.importing.distributions import NOTHING, Distribution, Open
-from osc2tx.importing.document import NOWHERE, Document, Folders, Refused, with_values
+from osc2tx.importing.document import NOWHERE, Document, Folders, Refused
 from osc2tx.importing.endings import placed_beside
 from osc2tx.importing.expressions import Untyped
 from osc2tx.importing.headers import header_of
@@ -29,6 +29,7 @@ from osc2tx.importing.starting import is_straight_ahead
 from osc2tx.importing.starts import Starts
 from osc2tx.importing.steps import BoardReader
 from osc2tx.importing.structure import Structure
+from osc2tx.importing.substitution import with_values
 from osc2tx.importing.surroundings import ENVIRONMENT, Surroundings
 from osc2tx.importing.values import Values
 from osc2tx.importing.whole import Whole, is_endless

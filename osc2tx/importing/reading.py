@@ -6,12 +6,13 @@ import sys
 from collections.abc import Collection, Mapping
 from pathlib import Path
 
-from osc2tx.importing.distributions import NOTHING, Distribution, Open, read_distribution
+from osc2tx.importing.distributions import NOTHING, Distribution, Open
 from osc2tx.importing.document import Folders, Refused
 from osc2tx.importing.importer import Imported, import_document
 from osc2tx.importing.libraries import Libraries
 from osc2tx.importing.reach import Reach
 from osc2tx.importing.report import ImportReport
+from osc2tx.importing.value_files import read_distribution
 from osc2tx.xosc import Element, Place, Unreadable, read
 
 

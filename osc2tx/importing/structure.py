@@ -18,6 +18,13 @@ from osc2tx.importing.cast import Actor
 from osc2tx.importing.conditions import Trigger
 from osc2tx.importing.dimensions import TIME, Quantity, literal
 from osc2tx.importing.joining import Join, joined
+from osc2tx.importing.precedence import (
+    below,
+    breaks_off,
+    conflict,
+    moment,
+    replaces_at_once,
+)
 from osc2tx.importing.program import EVENT, Declared
 from osc2tx.importing.statements import Emit, Statement, When, composed, elapsed, wait
 from osc2tx.importing.steps import ENDS, Block, Board, Branch, Step
@@ -55,7 +62,7 @@ class Structure:
         for scope in self._scopes:
             members, at_once = set(scope), defaultdict[Hashable, list[Step]](list)
             for step in scope:
-                alike = at_once[_moment(step)]
+                alike = at_once[moment(step)]
                 self._order(step, members, alike)
                 alike.append(step)
 
@@ -71,7 +78,7 @@ class Structure:
         """
         found = [each for each in self._ends_in(step.trigger) if each is not step]
         if not found:
-            found = [each for each in alike if _replaces_at_once(step, each)][-1:]
+            found = [each for each in alike if replaces_at_once(step, each)][-1:]
         if len(found) == 1 and found[0] in scope and not self._leads_to(step, found[0]):
             self._predecessor[step] = found[0]
             found[0].successors.append(step)
@@ -111,7 +118,7 @@ class Structure:
                 found.append(self._timeline(group))
                 continue
             for step in group:
-                branch = Branch(list(_below(step)), self._chain(step))
+                branch = Branch(list(below(step)), self._chain(step))
                 found.append(branch)
                 joins += self._joins(step, branch)
         held = {name: each.goes_on for name, each in self._going_on.items() if not each.is_free}
@@ -146,10 +153,10 @@ class Structure:
         order = {root: index for index, root in enumerate(roots)}
         found: list[tuple[list[Step], set[str]]] = []  # with all that a group moves
         for root in roots:
-            moved = {actor for step in _below(root) for actor in step.moved}
+            moved = {actor for step in below(root) for actor in step.moved}
             group, others = [root], []
             for each, its in found:
-                if moved.isdisjoint(its) or not any(_conflict(root, other) for other in each):
+                if moved.isdisjoint(its) or not any(conflict(root, other) for other in each):
                     others.append((each, its))
                 else:
                     group, moved = [*each, *group], moved | its
@@ -178,7 +185,7 @@ class Structure:
     def _waits_of(self, step: Step) -> list[Statement]:
         act, event = step.triggers
         behind = self._predecessor.get(step)
-        if behind is not None and _replaces_at_once(step, behind):
+        if behind is not None and replaces_at_once(step, behind):
             return []
         if behind is not None and not event.is_immediate:
             return self.waits(event, behind)
@@ -216,7 +223,7 @@ class Structure:
     def _timeline(self, group: Sequence[Step]) -> Branch:
         """Return steps at times, one after the other; what is still going on ends."""
         ordered = sorted(group, key=lambda step: nominal_start(step).value)
-        branch = Branch([each for step in ordered for each in _below(step)])
+        branch = Branch([each for step in ordered for each in below(step)])
         for index, step in enumerate(ordered):
             start = nominal_start(step)
             if index == 0 and start.value > 0.0:
@@ -250,7 +257,7 @@ class Structure:
             if total > 0.0 and gap.is_open:
                 left = f"{gap.text} - {literal(total, TIME)}"
             return [*content, wait(elapsed(left))]
-        actors = {actor for each in _below(step) for actor in each.actors}
+        actors = {actor for each in below(step) for actor in each.actors}
         last = composed("serial", [*content, *self.go_on(sorted(actors))])
         last.until.append(elapsed(gap.text))
         last.length = gap.value
@@ -273,7 +280,7 @@ class Structure:
                 for b in branches[other].steps:
                     both = ((a, b), (b, a)) if a.effects and b.effects else ()
                     for ended, by in both:
-                        if _ends(by, ended):
+                        if breaks_off(by, ended):
                             self.declared.append(
                                 Declared("", f"override({ended.label}, {by.label})")
                             )
@@ -296,51 +303,3 @@ class Structure:
         whole.label = block.label if block.label in self._referred_labels else ""
         whole.length = None
         return whole
-
-
-def _moment(step: Step) -> Hashable:
-    """Return what is the same for steps that start at once, by their last triggers."""
-    return step.act, tuple(
-        tuple(
-            (each.kind, each.text, each.edge, each.element, each.state, each.quantity)
-            for each in group
-        )
-        for group in step.trigger.groups
-    )
-
-
-def _replaces_at_once(later: Step, earlier: Step) -> bool:
-    """Whether a step takes over the motion from an earlier one without duration, on one trigger."""
-    if isinstance(later, Block) or isinstance(earlier, Block) or later.act != earlier.act:
-        return False
-    return (
-        bool(later.slots & earlier.slots)
-        and all(each.statement.length == 0.0 for each in earlier.effects)
-        and not later.trigger.is_immediate
-        and later.trigger.groups == earlier.trigger.groups
-    )
-
-
-def _below(step: Step) -> Iterator[Step]:
-    """Yield a step and those that follow it."""
-    left = [step]
-    while left:
-        at = left.pop()
-        yield at
-        left += reversed(at.successors)
-
-
-def _conflict(one: Step, other: Step) -> bool:
-    return any(_conflict_of(a, b) for a in _below(one) for b in _below(other))
-
-
-def _conflict_of(a: Step, b: Step) -> bool:
-    return _ends(a, b) or _ends(b, a)
-
-
-def _ends(later: Step, earlier: Step) -> bool:
-    """Whether a step that starts ends one that has started before, if that still runs."""
-    if later.slots & earlier.slots:
-        return True
-    is_beside = later.overrides and later.maneuver == earlier.maneuver
-    return is_beside and bool(later.actors & earlier.actors)

@@ -23,7 +23,7 @@ from osc2tx.importing.dimensions import (
     short,
 )
 from osc2tx.importing.distributions import Open
-from osc2tx.importing.document import Document, read_in
+from osc2tx.importing.document import Document
 from osc2tx.importing.expressions import (
     Expression,
     Name,
@@ -38,6 +38,7 @@ from osc2tx.importing.expressions import (
 )
 from osc2tx.importing.names import Names
 from osc2tx.importing.parameters import Parameter, Parameters
+from osc2tx.importing.substitution import read_in
 from osc2tx.xosc.element import Unresolved
 
 

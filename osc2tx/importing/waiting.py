@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 
 from osc2tx.importing.conditions import Condition, Trigger
 from osc2tx.importing.dimensions import PRODUCT, TIME, Quantity, literal, total
-from osc2tx.importing.entity_conditions import joined_by
+from osc2tx.importing.expressions import joined_by
 from osc2tx.importing.program import EVENT, Declared
 from osc2tx.importing.statements import Statement, When, composed, elapsed, happens, wait
 from osc2tx.importing.steps import ENDS, STARTS, Block, Board, Step

@@ -1,7 +1,7 @@
 """Distributions of parameters with constraints."""
 
-from osc2tx.importing.distributions import read_distribution
 from osc2tx.importing.report import ImportReport
+from osc2tx.importing.value_files import read_distribution
 from osc2tx.xosc import read
 
 VALUES = """<OpenSCENARIO><ParameterValueDistribution><ScenarioFile filepath="a.xosc"/>
