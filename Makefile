@@ -48,8 +48,8 @@ $(VENV)/.dask: $(STAMP)
 	$(INSTALL) -e ".[dask]"
 	touch $@
 
-# What would be published, in dist/: source distributions and wheels of both distributions, and the
-# compiled wheel of the runtime for this platform, with which its tests pass.
+# What would be published, in dist/: source distributions and wheels of both distributions, and their
+# compiled wheels for this platform.
 dist: $(VENV)/.dist
 	rm -rf dist
 	$(BIN)/python -m build --outdir dist runtime_lib
@@ -61,11 +61,12 @@ $(VENV)/.dist: $(STAMP)
 	$(INSTALL) -e ".[dist]"
 	touch $@
 
-# The wheel of the runtime with its hot paths compiled, in dist/, and its traces beside those of the
-# files. From a copy: the extension modules would stand beside the files, and be used instead.
-compiled: $(STAMP)
+# The wheels with compiled hot paths, in dist/, and their outputs and traces beside those of the files.
+# The runtime is compiled in a copy: its extension modules would be used instead of the files.
+compiled: $(VENV)/.dist
 	rm -rf build/runtime_lib && mkdir -p build dist && cp -r runtime_lib build/runtime_lib
 	HATCH_BUILD_HOOK_ENABLE_MYPYC=1 $(BIN)/python -m pip wheel --quiet --no-deps -w dist build/runtime_lib
+	HATCH_BUILD_HOOK_ENABLE_CUSTOM=1 $(BIN)/python -m pip wheel --quiet --no-build-isolation --no-deps -w dist .
 	OSC2TX_COMPILED=$(abspath dist) $(BIN)/pytest -q tests/packaging/test_compiled.py
 
 # Random inputs of all kinds until the time is up; findings, cut down, are in out/fuzz.

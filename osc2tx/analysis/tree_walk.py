@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from inspect import get_annotations
+from dataclasses import fields
 from operator import attrgetter
 from typing import TypeVar, cast
 
@@ -84,19 +84,18 @@ class NodesByKind:
 
 def _child_fields(kind: type[ast.Node]) -> Callable[[ast.Node], tuple[object, ...]]:
     """Return a getter of the fields of a class that may hold a node or a tuple of nodes."""
-    found = {
-        name: annotation
-        for base in reversed(kind.__mro__)
-        for name, annotation in get_annotations(base).items()
-    }
     names = [
-        name
-        for name, said in found.items()
-        if name not in SKIPPED and said not in _PLAIN and not said.startswith("ClassVar")
+        field.name
+        for field in fields(kind)
+        if field.name not in SKIPPED and field.type not in _PLAIN
     ]
     read = attrgetter(*names) if names else _nothing
-    _FIELDS[kind] = read if len(names) != 1 else lambda node: (read(node),)
+    _FIELDS[kind] = read if len(names) != 1 else _in_tuple(attrgetter(*names))
     return _FIELDS[kind]
+
+
+def _in_tuple(read: Callable[[ast.Node], object]) -> Callable[[ast.Node], tuple[object, ...]]:
+    return lambda node: (read(node),)
 
 
 def _nothing(node: ast.Node) -> tuple[object, ...]:

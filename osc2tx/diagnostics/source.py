@@ -83,6 +83,9 @@ class Span:
     def __hash__(self) -> int:
         return hash((self.source, self.start, self.end))
 
+    def __reduce__(self) -> tuple[type[Span], tuple[SourceFile, int, int]]:
+        return Span, (self.source, self.start, self.end)
+
     def __repr__(self) -> str:
         return f"Span({self.source.name!r}, {self.start}, {self.end})"
 

@@ -104,8 +104,8 @@ class _ScenarioVerifier:
                 case Struct(value=whole) if whole is not None:
                     self.check_expression(whole, declared)
                 case Actor(values=values) | Struct(values=values):
-                    for value in values:
-                        self.check_expression(value.value, declared)
+                    for given in values:
+                        self.check_expression(given.value, declared)
                 case Parameter(value=value, domain=domain):
                     for expression in (value, domain):
                         if expression is not None:

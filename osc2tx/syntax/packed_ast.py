@@ -95,7 +95,8 @@ def unpack(data: Packed, source: SourceFile) -> ast.File:
 def _unpack(data: Packed, source: SourceFile) -> ast.File:
     nodes: list[Any] = []
     for name, count, _ in data:
-        nodes += map(object.__new__, repeat(_NODES[name], count))
+        kind = _NODES[name]
+        nodes += map(kind.__new__, repeat(kind, count))
     file = nodes[0]
     nodes.append(None)  # at `NONE`
     node_at = nodes.__getitem__

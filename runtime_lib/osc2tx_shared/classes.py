@@ -18,7 +18,7 @@ import dataclasses
 from dataclasses import MISSING, Field, FrozenInstanceError
 from inspect import get_annotations
 from operator import attrgetter
-from types import CodeType, FunctionType
+from types import CodeType, FunctionType, GetSetDescriptorType, MemberDescriptorType
 from typing import TYPE_CHECKING, Any
 
 __all__ = ["dataclass", "replace"]
@@ -34,27 +34,7 @@ else:
             if cls.__doc__ is None:
                 cls.__doc__ = cls.__qualname__  # the default is the signature, which is slow
             fields = _fields(cls, frozen, slots, kw_only)
-            own = list(fields.values())
-            methods = {
-                "__init__": _init_first,
-                "__signature__": _SIGNATURE,
-                "__match_args__": tuple([f.name for f in own if f.init and not f.kw_only]),
-            }
-            if repr:
-                methods["__repr__"] = _repr
-            if eq:
-                methods["__eq__"] = _eq
-                methods["__hash__"] = _hash if frozen else None
-            if frozen:
-                methods["__setattr__"] = methods["__delattr__"] = _refuse
-                if slots:
-                    methods |= {"__getstate__": _get_state, "__setstate__": _set_state}
-            content = {name: each for name, each in methods.items() if name not in cls.__dict__}
-            content["__dataclass_fields__"] = fields
-            content["__dataclass_params__"] = _FROZEN if frozen else _NOT_FROZEN
-            if eq:
-                compared = [f.name for f in own if f.compare]
-                content["_compared"] = attrgetter(*compared) if compared else staticmethod(_nothing)
+            content = _content(cls, fields, frozen, slots, eq, repr)
             if slots:
                 return _with_slots(cls, content)
             for name, each in content.items():
@@ -68,6 +48,61 @@ else:
         cls = type(instance)
         read = _READERS.get(cls) or _reader(cls)
         return cls(**{**read(instance), **changes})
+
+
+def complete(
+    cls: Any,
+    declared: dict[str, tuple[str, dict[str, Any]]],
+    *,
+    frozen: bool,
+    eq: bool,
+    repr: bool,
+) -> None:
+    """Add what the decorator adds to a compiled class whose constructor is written out.
+
+    Args:
+        cls: The class.
+        declared: The annotation of each field, and the arguments of `field`.
+        frozen: As for the decorator, like the next ones.
+        eq: Whether instances are compared by their fields; the class has the methods.
+        repr: Whether to add a `__repr__`.
+    """
+    fields: dict[str, Any] = {}
+    for name, (annotation, settings) in declared.items():
+        field: Any = dataclasses.field(**settings)
+        field.name, field.type, field._field_type = name, annotation, _FIELD
+        fields[name] = field
+    content = _content(cls, fields, frozen, True, eq, repr)
+    for name, each in (content | {"__getstate__": _get_state, "__setstate__": _set_state}).items():
+        setattr(cls, name, each)
+
+
+def _content(
+    cls: Any, fields: dict[str, Any], frozen: bool, slots: bool, eq: bool, repr: bool
+) -> dict[str, Any]:
+    """Return what the decorator adds to a class, by name."""
+    own = list(fields.values())
+    methods: dict[str, Any] = {
+        "__init__": _init_first,
+        "__signature__": _SIGNATURE,
+        "__match_args__": tuple([f.name for f in own if f.init and not f.kw_only]),
+    }
+    if repr:
+        methods["__repr__"] = _repr
+    if eq:
+        methods["__eq__"] = _eq
+        methods["__hash__"] = _hash if frozen else None
+    if frozen:
+        methods["__setattr__"] = methods["__delattr__"] = _refuse
+        if slots:
+            methods |= {"__getstate__": _get_state, "__setstate__": _set_state}
+    content = {name: each for name, each in methods.items() if name not in cls.__dict__}
+    content["__dataclass_fields__"] = fields
+    content["__dataclass_params__"] = _FROZEN if frozen else _NOT_FROZEN
+    if eq:
+        compared = [f.name for f in own if f.compare]
+        content["_compared"] = attrgetter(*compared) if compared else staticmethod(_nothing)
+    return content
 
 
 _READERS: dict[type, Any] = {}
@@ -135,10 +170,19 @@ def _field(cls: Any, name: str, annotation: object, kw_only: bool) -> Any:
     return field
 
 
+_PLACES = MemberDescriptorType, GetSetDescriptorType
+"""What reads and writes a slot, and a field of a compiled class."""
+
+
 def _with_slots(cls: Any, methods: dict[str, Any]) -> Any:
     """Return a class like another one, with slots instead of a `__dict__`, and with methods."""
     fields = methods["__dataclass_fields__"]
-    inherited = {slot for base in cls.__mro__[1:-1] for slot in base.__dict__.get("__slots__", ())}
+    inherited = {
+        name
+        for base in cls.__mro__[1:-1]
+        for name, each in base.__dict__.items()
+        if isinstance(each, _PLACES)
+    }
     content = {name: value for name, value in cls.__dict__.items() if name not in fields}
     content.pop("__dict__", None)
     content.pop("__weakref__", None)

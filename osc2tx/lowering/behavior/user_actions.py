@@ -65,8 +65,7 @@ def _constant_default(ctx: LoweringContext, parameter: sym.FieldSymbol) -> ir.Ex
     if default is None or isinstance(default, ast.SampleExpression):
         return None
     value = lower_expression(ctx.quiet(), default)
-    constant = ir.Literal | ir.Quantity | ir.EnumValue
-    return value if isinstance(value, constant) else None
+    return value if isinstance(value, ir.Literal | ir.Quantity | ir.EnumValue) else None
 
 
 def default_arguments(
