@@ -141,7 +141,7 @@ def _files(module: ir.Module) -> dict[str, str]:
 def unplayed(
     documents: Sequence[XmlScenario], source: Source, sink: DiagnosticSink
 ) -> tuple[XmlScenario, ...]:
-    """Return the documents of a file where none is played: their reports say so."""
+    """Return the documents of a file where none is played: their reports state this."""
     return tuple(_unmeasured(each, source, sink, "`--no-verify`") for each in documents)
 
 
