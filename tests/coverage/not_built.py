@@ -85,12 +85,4 @@ NOT_BUILT = (
         + "    c: crossing\n    do serial:\n        walker.walk(duration: 1s) with:\n"
         + "            along(c)\n            lateral(0.5m, side: left)\n",
     ),
-    NotBuilt(
-        "`speed(at: end)` beside `speed(speed_range: …)`",
-        "OSC508",
-        "one modifier of a kind plans the motion of a phase. Two phases say it: the range, then"
-        " `change_speed`",
-        SCENARIO + DRIVE + "speed(10mps, at: end)\n            "
-        "speed(speed_range: [5mps..12mps])\n",
-    ),
 )
