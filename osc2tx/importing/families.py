@@ -15,6 +15,7 @@ LEAST_SCENARIOS = 3
 LEAST_SHARE = 0.6
 """Of the scenarios of a folder: what fewer have is said in each of them."""
 LEAST_LINES = 4
+INHERITED = "#! allow OSC510: scenarios beside it inherit it"
 
 
 def families(
@@ -96,6 +97,7 @@ def _base(name: str, shared: Collection[str], heirs: Sequence[Program]) -> Progr
         [each for each in first.imports if all(each in heir.imports for heir in heirs)],
         members=members,
         parameters=[each for each in first.parameters if each.name and _key(each) in shared],
+        remark=INHERITED,
     )
 
 

@@ -101,6 +101,7 @@ class Program:
         members: Its actors and what else is there.
         parameters: Its parameters, and what is computed from them.
         body: What happens.
+        remark: A directive to the compiler above the scenario.
     """
 
     name: str
@@ -111,6 +112,7 @@ class Program:
     members: list[Declared] = field(default_factory=list)
     parameters: list[Declared] = field(default_factory=list)
     body: Statement | None = None
+    remark: str = ""
 
     @property
     def behavior(self) -> list[str]:
@@ -138,6 +140,7 @@ class Program:
             lines += [f"namespace null use {', '.join(('std', 'stdtypes', *self.imports))}", ""]
         inherits = f" inherits {self.base}" if self.base else ""
         is_empty = not (self.members or self.parameters or self.body)
+        lines += [self.remark] if self.remark else []
         lines.append(f"scenario {self.name}{inherits}{'' if is_empty else ':'}")
         parts = [together(self.members), self.parameters]
         for part in filter(None, parts):

@@ -5,7 +5,9 @@ from pathlib import Path
 import pytest
 
 from osc2tx.cli.import_ import Result, import_all
+from osc2tx.compilation.driver import Compilation
 from osc2tx.importing.document import Folders
+from osc2tx.options import CompileOptions
 from tests.importing.documents import at_time, document, event, speed_change
 
 SPEED = '<ParameterDeclaration name="Speed_kph" parameterType="double" value="72"/>'
@@ -91,7 +93,11 @@ def test_values_that_change_the_course_of_a_scenario_have_one_of_their_own(tmp_p
 def test_scenarios_of_a_folder_share_what_they_have_in_common(tmp_path: Path) -> None:
     speeds = {f"cars_{n}": scenario(str(n), LIMITED) for n in (20, 21, 22)}
     found = results(tmp_path, **speeds)
-    base = (tmp_path / "osc" / "cars_base.osc").read_text(encoding="utf-8")
+    path = tmp_path / "osc" / "cars_base.osc"
+    base = path.read_text(encoding="utf-8")
+    compilation = Compilation(path, path.name, CompileOptions())
+    assert compilation.ir is not None
+    assert list(compilation.diagnostics) == []
     assert base[base.index("scenario ") :].splitlines() == [
         "scenario cars_base:",
         "    road: map with:",
