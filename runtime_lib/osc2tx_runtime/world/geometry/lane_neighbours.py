@@ -18,7 +18,7 @@ def lane_with_number(
     if not 1 <= number <= len(lanes):
         return None
     lane = lanes[number - 1] if edge == "right" else lanes[-number]
-    return LanePosition(place.road, lane, place.s)
+    return place._replace(lane=lane, offset=0.0)  # the same `s`: a number of XML has its origin
 
 
 def number_of_lane(road_map: RoadMap, place: LanePosition, edge: SideLeftRight) -> int:
