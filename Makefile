@@ -61,13 +61,17 @@ $(VENV)/.dist: $(STAMP)
 	$(INSTALL) -e ".[dist]"
 	touch $@
 
-# The wheels with compiled hot paths, in dist/, and their outputs and traces beside those of the files.
+# The wheels with compiled hot paths, in dist/; their outputs and traces beside those of the files, and
+# the golden and unit tests with them.
 # The runtime is compiled in a copy: its extension modules would be used instead of the files.
+TESTS_OF_COMPILED := tests/golden $(addprefix tests/unit/,analysis backends cli diagnostics formatter ir lowering semantics stdlib syntax)
 compiled: $(VENV)/.dist
 	rm -rf build/runtime_lib && mkdir -p build dist && cp -r runtime_lib build/runtime_lib
 	HATCH_BUILD_HOOK_ENABLE_MYPYC=1 $(BIN)/python -m pip wheel --quiet --no-deps -w dist build/runtime_lib
 	HATCH_BUILD_HOOK_ENABLE_CUSTOM=1 $(BIN)/python -m pip wheel --quiet --no-build-isolation --no-deps -w dist .
 	OSC2TX_COMPILED=$(abspath dist) $(BIN)/pytest -q tests/packaging/test_compiled.py
+	rm -rf build/compiled && for wheel in dist/*-cp*.whl; do $(BIN)/python -m zipfile -e $$wheel build/compiled || exit 1; done
+	PYTHONPATH=$(abspath build/compiled) $(PYTEST) -m "not slow" -o "pythonpath=build/compiled ." $(TESTS_OF_COMPILED)
 
 # Random inputs of all kinds until the time is up; findings, cut down, are in out/fuzz.
 SECONDS ?= 600

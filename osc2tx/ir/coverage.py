@@ -20,8 +20,8 @@ class Bucket:
         label: Name of a default bucket.
     """
 
-    low: float | None = None
-    high: float | None = None
+    low: int | float | None = None
+    high: int | float | None = None
     value: bool | int | str | None = None
     label: str = ""
 
@@ -59,9 +59,9 @@ class Coverage:
     items: tuple[str, ...] = ()
     event: EventRef | Moment = Moment.END
     unit: Unit | None = None
-    within: tuple[float, float] | None = None
-    every: float | None = None
-    buckets: tuple[float, ...] = ()
+    within: tuple[int | float, int | float] | None = None
+    every: int | float | None = None
+    buckets: tuple[int | float, ...] = ()
     ignore: Expression | None = None
     illegal: Expression | None = None
     target: int | None = None

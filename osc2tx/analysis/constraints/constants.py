@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 import operator
 from collections.abc import Callable, Mapping, Sequence
-from typing import TypeAlias
+from typing import ClassVar, TypeAlias
 
 from osc2tx.analysis.constraints.domains import Interval, Value, close
 from osc2tx.analysis.constraints.interval_arithmetic import fits
@@ -56,8 +56,8 @@ class WithoutValueError(Exception):
         help: The remedy.
     """
 
-    code = ""
-    help: str | None = None
+    code: ClassVar[str] = ""
+    help: ClassVar[str | None] = None
 
     def __init__(self, node: ast.Expression, message: str) -> None:
         super().__init__(message)
@@ -68,14 +68,16 @@ class WithoutValueError(Exception):
 class ImpossibleConversionError(WithoutValueError):
     """No value of the type equals the converted one (§7.4.2.6)."""
 
-    code = "OSC426"
+    code: ClassVar[str] = "OSC426"
 
 
 class UndefinedMethodError(WithoutValueError):
     """A method without implementation is invoked (§7.3.7.1)."""
 
-    code = "OSC427"
-    help = "override it, `is only expression …`, in a type that extends this one"
+    code: ClassVar[str] = "OSC427"
+    help: ClassVar[str | None] = (
+        "override it, `is only expression …`, in a type that extends this one"
+    )
 
 
 @dataclass(slots=True, eq=False)

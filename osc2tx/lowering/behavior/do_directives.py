@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
-
 from osc2tx import ir
 from osc2tx.lowering.behavior.behaviors import BehaviorLowering
 from osc2tx.lowering.behavior.composed_behaviors import Composed
@@ -134,8 +132,9 @@ def labelled_once(body: ir.Behavior) -> ir.Behavior:
 
     def numbered(node: ir.Behavior) -> ir.Behavior:
         if node.label in seen:
-            candidates = (f"{node.label}_{number}" for number in itertools.count(2))
-            label = next(each for each in candidates if each not in taken)
+            number = 2
+            while (label := f"{node.label}_{number}") in taken:
+                number += 1
             node = replace(node, label=label)
             taken.add(label)
         elif node.label is not None:

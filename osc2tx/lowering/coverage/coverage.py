@@ -149,19 +149,24 @@ def _text(expression: ast.Expression | None) -> str:
 
 
 class _Numbers:
-    """Reads the numbers of slices: plain ones count in the unit, others are converted to it."""
+    """Reads the numbers of slices: plain ones count in the unit, others are converted to it.
+
+    Whole numbers stay whole, also in compiled code, which makes a `float` of what is called one.
+    """
 
     def __init__(self, ctx: LoweringContext, unit: sym.UnitSymbol | None) -> None:
         self._ctx = ctx
         self._unit = unit
 
-    def of(self, node: ast.Expression | None) -> float | None:
+    def of(self, node: ast.Expression | None) -> int | float | None:
         """Return a number; rejects values that are not constant at compile time."""
         match node:
             case None:
                 return None
-            case ast.IntegerLiteral(value=value) | ast.FloatLiteral(value=value):
-                return value
+            case ast.IntegerLiteral():
+                return node.value
+            case ast.FloatLiteral():
+                return node.value
             case ast.Unary(operator=ast.UnaryOperator.NEGATE, operand=operand):
                 number = self.of(operand)
                 return None if number is None else -number
@@ -176,7 +181,7 @@ class _Numbers:
                 )
                 return None
 
-    def range_of(self, node: ast.Expression | None) -> tuple[float, float] | None:
+    def range_of(self, node: ast.Expression | None) -> tuple[int | float, int | float] | None:
         """Return a range."""
         if not isinstance(node, ast.RangeLiteral):
             self.of(node)
@@ -184,9 +189,9 @@ class _Numbers:
         lower, upper = self.of(node.lower), self.of(node.upper)
         if lower is None or upper is None:
             return None
-        return min(lower, upper), max(lower, upper)
+        return (lower, upper) if lower <= upper else (upper, lower)
 
-    def list_of(self, node: ast.Expression | None) -> tuple[float, ...]:
+    def list_of(self, node: ast.Expression | None) -> tuple[int | float, ...]:
         """Return the numbers of a list."""
         if not isinstance(node, ast.ListLiteral):
             self.of(node)
