@@ -330,15 +330,10 @@ class TimeSystem:
                     f"members of {shown(first)} and {shown(own)} cannot overlap as this requires"
                 )
                 labels = [Label(term.span, "one of them") for term in other.terms]
-                by_default = node.overlap is None and kind == "start"
-                help_text = "without `overlap` they start together; `overlap: any` omits this"
-                self.ctx.sink.report(
-                    "OSC519",
-                    node.span,
-                    message,
-                    labels=labels,
-                    help=help_text if by_default else None,
-                )
+                advice = None
+                if node.overlap is None and kind == "start":
+                    advice = "without `overlap` they start together; `overlap: any` omits this"
+                self.ctx.sink.report("OSC519", node.span, message, labels=labels, help=advice)
                 return
 
     def _equal(

@@ -153,8 +153,7 @@ def is_admissible_range(
     `speed(speed_range: [15mps..20mps])` beside `speed(20mps, at: end)`: the second one determines
     the motion, the first one has to hold on the way (§8.9.1.4).
     """
-    given = call.given
-    if call.at != "all" or "shape" in given or not any(name in given for name in RANGES):
+    if call.at != "all" or "shape" in call.given or not _is_range(call):
         return False
     across = is_across(call, known)
     return any(
@@ -306,9 +305,13 @@ class _Action(Generic[CallT]):
         return [call for call in self._named("speed") if not is_across(call, self.known)]
 
 
+def _is_range(call: Call) -> bool:
+    """Whether a modifier states an interval instead of a value."""
+    return any(name in call.given for name in RANGES)
+
+
 def _leaves_room(place: Call) -> bool:
     """Whether a place does not say how to move all the time."""
     given = place.given
-    is_range = "distance_range" in given or "time_range" in given
     is_relative = "ahead_of" in given or "behind" in given
-    return place.at == "end" or (place.at == "all" and is_range and is_relative)
+    return place.at == "end" or (place.at == "all" and _is_range(place) and is_relative)

@@ -36,7 +36,7 @@ class ModifierCall:
         return isinstance(self.modifier, Speed) and self.modifier.shaped
 
 
-def admissible_ranges(modifiers: Sequence[Modifier]) -> list[Modifier]:
-    """The modifiers that only bound what another one states for the end."""
+def commanding(modifiers: Sequence[Modifier]) -> tuple[Modifier, ...]:
+    """The modifiers except those that only bound what another one states for the end."""
     calls = [ModifierCall(modifier) for modifier in modifiers]
-    return [call.modifier for call in calls if is_admissible_range(call, calls, RULES)]
+    return tuple(c.modifier for c in calls if not is_admissible_range(c, calls, RULES))

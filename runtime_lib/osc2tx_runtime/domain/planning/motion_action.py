@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Unpack
 from osc2tx_runtime.domain.actors import MovableObject
 from osc2tx_runtime.domain.modifiers import Modifier, MovementModifier, Orient, PhysicalMovement
 from osc2tx_runtime.domain.modifiers.base import settled
-from osc2tx_runtime.domain.modifiers.calls import admissible_ranges
+from osc2tx_runtime.domain.modifiers.calls import commanding
 from osc2tx_runtime.domain.paths.path_curves import PathError
 from osc2tx_runtime.domain.placing.pose_resolution import one_of_kind
 from osc2tx_runtime.domain.planning.enclosing_phase import limit_of
@@ -262,8 +262,7 @@ class ModifiedMotion(MotionAction):
     @cached_property
     def commanding(self) -> tuple[Modifier, ...]:
         """The modifiers except those that only bound what another one commands."""
-        ranges = admissible_ranges(self.modifiers)
-        return tuple(m for m in self.modifiers if not any(m is each for each in ranges))
+        return commanding(self.modifiers)
 
     @cached_property
     def lasting(self) -> tuple[Modifier, ...]:

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
+from osc2tx_runtime import opendrive
 from osc2tx_runtime.domain.paths.path_curves import PathError
 from osc2tx_runtime.domain.points_and_poses import Pose
 from osc2tx_runtime.opendrive import LanePosition, RoadMap, Route
@@ -89,7 +90,7 @@ def way_between(road_map: RoadMap, start: LanePosition, goal: LanePosition) -> t
         )
         a, b = a or b, b or a
         assert a is not None and b is not None  # the window lies where both exist
-        points.append(Pose(a.x + w * (b.x - a.x), a.y + w * (b.y - a.y), a.z + w * (b.z - a.z)))
+        points.append(_between(a, b, w))
     return tuple(points)
 
 
@@ -106,7 +107,7 @@ def _along_road(road_map: RoadMap, start: LanePosition, goal: LanePosition) -> t
         s = start.s + (goal.s - start.s) * i / count
         a, b = (road_map.pose(LanePosition(p.road, p.lane, s, p.offset)) for p in (start, goal))
         w = _smooth(max(0.0, (distance - begin) / (length - begin)))
-        points.append(Pose(a.x + w * (b.x - a.x), a.y + w * (b.y - a.y), a.z + w * (b.z - a.z)))
+        points.append(_between(a, b, w))
     return tuple(points)
 
 
@@ -156,6 +157,11 @@ def _window(
     if end - begin < _LEAST_CHANGE:
         raise _too_short(end - begin, at_end, goal)
     return begin, end
+
+
+def _between(a: opendrive.Pose, b: opendrive.Pose, share: float) -> Pose:
+    x, y, z = (start + share * (end - start) for start, end in ((a.x, b.x), (a.y, b.y), (a.z, b.z)))
+    return Pose(x, y, z)
 
 
 def _smooth(tau: float) -> float:

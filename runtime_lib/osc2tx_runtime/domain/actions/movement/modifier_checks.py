@@ -58,8 +58,8 @@ def check_options(action: ModifiedMotion) -> None:
 
 
 def _bound_to_lanes(action: ModifiedMotion) -> Iterator[str]:
-    for modifier in action.modifiers:
-        if is_across(ModifierCall(modifier), RULES):
+    for call in map(ModifierCall, action.modifiers):
+        if is_across(call, RULES):
             yield "only vehicles on lanes have a lateral speed"
-        if modifier.facts.rules.lanes_only and ModifierCall(modifier).at != "start":
-            yield f"{modifier.name} is for vehicles, which follow lanes"
+        if call.modifier.facts.rules.lanes_only and call.at != "start":
+            yield f"{call.name} is for vehicles, which follow lanes"
