@@ -50,6 +50,7 @@ class Batch:
     libraries: Libraries = field(default_factory=dict)
     bases: list[Program] = field(default_factory=list)
     _names: dict[Path | None, str] = field(default_factory=dict)
+    _taken: set[str] = field(default_factory=set)
     _templates: dict[Path, Path] = field(default_factory=dict)
     _open: dict[Path, dict[str, Open]] = field(default_factory=dict)
     _alike: dict[Path, list[Imported]] = field(default_factory=dict)
@@ -97,9 +98,9 @@ class Batch:
         key = None if source is None else source.resolve()
         if key not in self._names:
             said = name or ("scenario" if source is None else source.stem)
-            taken = {snake(each) for each in self._names.values()}
-            while snake(said) in taken:
+            while snake(said) in self._taken:
                 said += "_2"
+            self._taken.add(snake(said))
             self._names[key] = said
         return self._names[key]
 

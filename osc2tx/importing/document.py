@@ -192,8 +192,10 @@ class Document:
             except (OSError, Unreadable):
                 continue
             catalog = None if root is None else root.find(xml.Catalog)
-            for entry in () if catalog is None else catalog.children:
-                key = (catalog.get("name") or "", entry.get("name") or "")  # type: ignore[union-attr]
+            if catalog is None:
+                continue
+            for entry in catalog.children:
+                key = (catalog.get("name") or "", entry.get("name") or "")
                 entries.setdefault(key, (entry, path))
         return entries
 

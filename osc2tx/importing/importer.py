@@ -234,7 +234,7 @@ class _Import:
 
     def _find_used(self, program: Program, places: Places, structure: Structure) -> None:
         """Note which parameters the scenario reads, itself or in what gives others."""
-        others = [*structure.declared, *places.points.lines]
+        others = [*structure.declared, *places.points.declared]
         written = [*program.behavior, *(line for each in others for line in each.lines)]
         words = _words("\n".join(written))
         for parameter in reversed(self._values.parameters.values()):
@@ -262,7 +262,7 @@ class _Import:
             members.append(Declared(ENVIRONMENT, "environment"))
         if lights.is_switched:
             members.append(Declared(CONTROLLER, "traffic_light_controller"))
-        members += lights.lines
+        members += lights.declared
         for node in self._document.tagged("ScenarioObject"):
             actor = self._cast.members.pop(node.get("name") or "", None)
             if actor is not None:
@@ -272,7 +272,7 @@ class _Import:
         words = _words("\n".join(program.behavior))
         program.parameters = [
             *declared.parameters(),
-            *read_by(places.points.lines, words),
+            *read_by(places.points.declared, words),
             *self._marks.members(words),
             *read_by(structure.declared, words),
         ]

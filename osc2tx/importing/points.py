@@ -61,12 +61,12 @@ class Points:
     """Points of the world, poses and routes, which are declared.
 
     Attributes:
-        lines: Their declarations.
+        declared: Their declarations.
     """
 
     def __init__(self, names: Names) -> None:
         self._names = names
-        self.lines: list[Declared] = []
+        self.declared: list[Declared] = []
         self._declared: dict[tuple[str, float, float], str] = {}
 
     def point(self, x: float, y: float, name: str) -> str:
@@ -78,7 +78,7 @@ class Points:
                 f"it.{axis} == {literal(v, LENGTH)}"
                 for axis, v in zip("xyz", (*key[1:], 0.0), strict=True)
             ]
-            self.lines.append(Declared(made, "position_3d", [" and ".join(told)]))
+            self.declared.append(Declared(made, "position_3d", [" and ".join(told)]))
             self._declared[key] = made
         return self._declared[key]
 
@@ -88,7 +88,7 @@ class Points:
         if key not in self._declared:
             made = self._names.new("", kind="point", base=f"{name}_orientation")
             told = f"it.yaw == {degrees(h)} and it.pitch == 0deg and it.roll == 0deg"
-            self.lines.append(Declared(made, "orientation_3d", [told]))
+            self.declared.append(Declared(made, "orientation_3d", [told]))
             self._declared[key] = made
         return self._declared[key]
 
@@ -98,7 +98,7 @@ class Points:
         if key not in self._declared:
             made = self._names.new("", kind="point", base=f"{name}_goal")
             at = ", ".join(literal(value, LENGTH) for value in (*key[1:], 0.0))
-            self.lines.append(Declared(made, "xyz_point", value=f"road.create_xyz_point({at})"))
+            self.declared.append(Declared(made, "xyz_point", value=f"road.create_xyz_point({at})"))
             self._declared[key] = made
         return self._declared[key]
 
@@ -109,7 +109,7 @@ class Points:
             f"it.position.{axis} == {literal(round(v, 6), LENGTH)}"
             for axis, v in zip("xyz", (x, y, 0.0), strict=True)
         ]
-        self.lines.append(Declared(made, "pose_3d", [" and ".join(told)]))
+        self.declared.append(Declared(made, "pose_3d", [" and ".join(told)]))
         return made
 
     def relative(
@@ -146,7 +146,7 @@ class Points:
         told = [f"it.points == [{', '.join(corners)}]", "it.interpolation == straight_line"]
         if stamps:
             told.append(f"it.time_stamps == [{', '.join(stamps)}]")
-        self.lines.append(Declared(made, type_name, told))
+        self.declared.append(Declared(made, type_name, told))
         return made
 
     def route(self, stops: Sequence[LanePosition], name: str) -> str:
@@ -155,5 +155,5 @@ class Points:
         points = ", ".join(
             odr_point(each.road, str(each.lane), literal(each.s, LENGTH), "0m") for each in stops
         )
-        self.lines.append(Declared(made, "route", value=f"road.create_route([{points}])"))
+        self.declared.append(Declared(made, "route", value=f"road.create_route([{points}])"))
         return made

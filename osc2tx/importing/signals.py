@@ -22,7 +22,7 @@ class TrafficLights:
     """The traffic lights of a document.
 
     Attributes:
-        lines: Their declarations.
+        declared: Their declarations.
         is_switched: Whether an action switches one, for which a controller is declared.
     """
 
@@ -30,7 +30,7 @@ class TrafficLights:
         self._signals = None if road_map is None else Signals(road_map)
         self._values, self._names = values, names
         self._declared: dict[str, str] = {}
-        self.lines: list[Declared] = []
+        self.declared: list[Declared] = []
         self.is_switched = False
 
     def switch(self, node: Node) -> Call:
@@ -75,5 +75,5 @@ class TrafficLights:
         if signal not in self._declared:
             name = self._names.new("", kind="traffic light", base=snake(f"light_{signal}"))
             self._declared[signal] = name
-            self.lines.append(Declared(name, "traffic_light", [f'it.map_id == "{signal}"']))
+            self.declared.append(Declared(name, "traffic_light", [f'it.map_id == "{signal}"']))
         return self._declared[signal]

@@ -55,16 +55,11 @@ class Synchrony(Reader):
         speeds = [self._speeds.get(each.name) for each in (body, master)]
         body.v, master.v = (0.0 if each is None else each.value for each in speeds)
         try:
-            places = [
-                self._places.known(action.one(kind))
-                for kind in (xml.TargetPosition, xml.TargetPositionMaster)
-            ]
-            if None in places or abs(master.v) <= EVEN:
+            place = self._places.known(action.one(xml.TargetPosition))
+            their_place = self._places.known(action.one(xml.TargetPositionMaster))
+            if place is None or their_place is None or abs(master.v) <= EVEN:
                 return None
-            own, theirs = (
-                way_left(each, place, road_map)  # type: ignore[arg-type]
-                for each, place in zip((body, master), places, strict=True)
-            )
+            own, theirs = way_left(body, place, road_map), way_left(master, their_place, road_map)
             theirs = theirs * math.copysign(1.0, master.v) - abs(master.v) * self._readings.begin
             own -= body.v * self._readings.begin
             final, steady = final_of(action, body.v, master)
