@@ -277,6 +277,7 @@ _REMEDIES: tuple[Callable[[Place], Advice | None], ...] = (
     foreign.label_of_two_words,
     foreign.statement,
     _unbalanced_bracket,
+    foreign.condition_of_inheritance,
     _assignment,
     _with_below,
     _misspelt_composition,

@@ -180,6 +180,17 @@ def colon_inheritance(place: Place) -> Advice | None:
     return Advice(f"expected the end of the line, found `{word}`", help_)
 
 
+def condition_of_inheritance(place: Place) -> Advice | None:
+    """`actor a inherits vehicle(field: value)`, as one example of the standard has it."""
+    opened = place.open_bracket()
+    if place.text() not in (":", "=") or opened is None or opened - 2 < place.line:
+        return None
+    if place.table.text(opened - 2) != "inherits":
+        return None
+    help_ = write(place.between(-1, 1), " == ", f"write `{place.text(-1)} == {place.text(1)}`")
+    return Advice(f"expected `==`, found `{place.text()}`", help_)
+
+
 def other_inheritance(place: Place) -> Advice | None:
     """`actor a extends vehicle:`, `actor a(vehicle):`."""
     if place.table.types[place.line] not in TYPES or place.kind(1) != t.ID:
