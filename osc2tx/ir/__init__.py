@@ -2,8 +2,8 @@
 
 Nodes are frozen data without references to syntax or symbols; each has its span. Modules, in
 reading order: `values`, `expressions`, `behaviors`, `declarations`, `user_types`,
-`coverage`, `nodes`; then `traversal`, `trees`, `compare`, `inheritance`, `verify` (the invariants)
-and `dump` (the printable form).
+`coverage`, `nodes`; then `traversal`, `trees`, `occurrences`, `compare`, `inheritance`, `verify`
+(the invariants) and `dump` (the printable form).
 """
 
 from osc2tx.ir.behaviors import (
@@ -90,18 +90,28 @@ from osc2tx.ir.expressions import (
 )
 from osc2tx.ir.inheritance import Additions, additions, is_named_after, without_bases
 from osc2tx.ir.nodes import AbstractScenario, Module, Override, Placement, Scenario
+from osc2tx.ir.occurrences import WAITABLE, Occurrences, early_triggers, emitted_by, triggers_of
 from osc2tx.ir.traversal import applied_with, bounds, children, constant, is_live, rewrite, walk
 from osc2tx.ir.trees import (
     actors_of,
+    around,
+    entry_of,
+    first_actions,
     follower,
     holds,
     invocations,
     is_first,
+    is_instant,
     is_last,
+    is_open,
+    is_single,
     is_timed,
     may_be_cut,
     predecessor,
     runs_beside,
+    starts_at_once,
+    starts_together,
+    takes_time,
 )
 from osc2tx.ir.user_types import (
     ActionParameter,

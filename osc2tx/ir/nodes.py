@@ -136,3 +136,8 @@ class Module:
     enums: tuple[UserEnum, ...] = ()
     modifiers: tuple[UserModifier, ...] = ()
     units: tuple[UserUnit, ...] = ()
+
+    @property
+    def own_scenarios(self) -> list[Scenario]:
+        """Return the scenarios of the file itself, without imported ones, and without actions."""
+        return [each for each in self.scenarios if not each.is_imported and not each.is_action]

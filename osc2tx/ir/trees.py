@@ -2,10 +2,46 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
+from functools import lru_cache
 
-from osc2tx.ir.behaviors import Behavior, Emit, Invoke, InvokeScenario, OneOf, Parallel, Serial
+from osc2tx.catalogue import ActionEntry, catalogue
+from osc2tx.ir.behaviors import (
+    Behavior,
+    Call,
+    Composition,
+    Emit,
+    Finish,
+    Invoke,
+    InvokeScenario,
+    On,
+    OneOf,
+    Parallel,
+    Serial,
+    Wait,
+)
 from osc2tx.ir.verify import walk_behaviors
+
+
+def entry_of(node: Invoke) -> ActionEntry | None:
+    """Return the catalogue entry of an action; `None` for one that the scenario declares."""
+    return catalogue().actions.get(node.qualified_name)
+
+
+def is_instant(node: Behavior) -> bool:
+    """Whether a member takes no time."""
+    match node:
+        case Serial(members=members) | Parallel(members=members):
+            return node.duration is None and all(is_instant(member) for member in members)
+        case OneOf(members=members):
+            return all(is_instant(member) for member in members)
+        case Invoke():
+            entry = entry_of(node)
+            return entry is not None and entry.ends == "instant" and node.duration is None
+        case Emit() | Finish() | Call() | On():
+            return True
+        case InvokeScenario() | Wait():
+            return False
 
 
 def invocations(root: Behavior) -> Iterator[Invoke]:
@@ -96,3 +132,98 @@ def actors_of(node: Behavior) -> tuple[str, ...]:
     """Return the actors of the actions in a tree, in source order."""
     names = (each.actor_name for each in invocations(node))
     return tuple(dict.fromkeys(name for name in names if name is not None))
+
+
+def takes_time(node: Invoke) -> bool:
+    """Whether an action of the library goes on for some time."""
+    entry = entry_of(node)
+    return entry is not None and entry.ends in ("goal", "open")
+
+
+def is_open(node: Behavior) -> bool:
+    """Whether a member goes on for as long as one likes."""
+    match node:
+        case Invoke():
+            entry = entry_of(node)
+            is_endless = entry is not None and entry.ends == "open"
+            return is_endless and node.duration is None and not node.until
+        case Serial(members=members):
+            return not node.until and node.duration is None and is_open(members[-1])
+        case Parallel(members=members) | OneOf(members=members):
+            return not node.until and node.duration is None and all(map(is_open, members))
+        case _:
+            return False
+
+
+def starts_together(node: Parallel) -> bool:
+    """Whether the members of a `parallel` begin when it does."""
+    return node.overlap is None and not (node.start_to_start or node.end_to_end)
+
+
+def first_actions(member: Behavior) -> list[Invoke]:
+    """Return the actions that begin when a member does, and take time."""
+    match member:
+        case Serial(members=members):
+            return first_actions(members[0])
+        case Parallel(members=members) if starts_together(member):
+            return [found for each in members for found in first_actions(each)]
+        case Invoke() if takes_time(member):
+            return [member]
+        case _:
+            return []
+
+
+def around(
+    body: Behavior, node: Behavior
+) -> Iterator[tuple[Composition, Sequence[Behavior], Sequence[Behavior]]]:
+    """Yield the compositions around a member, from the inside out.
+
+    Each goes with the members before and after that one, if they follow one another.
+    """
+    parents = _parents(body)
+    while (parent := parents.get(id(node))) is not None:
+        members = parent.members if isinstance(parent, Serial) else (node,)
+        index = next(i for i, each in enumerate(members) if each is node)
+        yield parent, members[:index], members[index + 1 :]
+        node = parent
+
+
+@lru_cache(maxsize=16)  # of a scenario and those that it invokes
+def _parents(body: Behavior) -> Mapping[int, Composition]:
+    """Return the composition that each member stands in, by the id of the member."""
+    return {
+        id(member): each
+        for each in walk_behaviors(body)
+        if isinstance(each, Serial | Parallel | OneOf)
+        for member in each.members
+    }
+
+
+def starts_at_once(node: Behavior) -> bool:
+    """Whether all actions in a member start when it does: nothing in it is left to be stopped."""
+    match node:
+        case Parallel(overlap=None, start_to_start=None, end_to_end=None, members=members):
+            return all(map(starts_at_once, members))
+        case Invoke():
+            return True
+        case _:
+            return False
+
+
+def is_single(node: Behavior) -> bool:
+    """Whether nothing has to be stopped but one action: a leaf, or waits before and after it."""
+    return _leaves(node) <= 1
+
+
+def _leaves(node: Behavior) -> int:
+    match node:
+        case Parallel(members=members) if len(members) > 1:
+            return 2
+        case Serial(members=members) | Parallel(members=members) | OneOf(members=members):
+            return sum(_leaves(member) for member in members)
+        case Wait():
+            return 0
+        case Invoke():
+            return 1
+        case Emit() | Finish() | Call() | On() | InvokeScenario():
+            return 2

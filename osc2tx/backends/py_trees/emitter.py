@@ -145,7 +145,7 @@ def emit(
         units=_comments_of_units(uses.units(), module),
         enums=_explained_enums(uses.enums(), names, sharing, module),
         scenarios=_explained(scenario_views, scenarios, sharing),
-        mains=tuple(names[scenario.key] for scenario in own_scenarios(module)),
+        mains=tuple(names[scenario.key] for scenario in module.own_scenarios),
         shown=None if shown is None else names[shown.key],
         standard_imports=uses.standard_imports(),
         types=_explained(type_views, types, sharing),
@@ -223,17 +223,12 @@ def _root(module: ir.Module) -> PyExpr | None:
     return PyExpr(f"pathlib.Path(__file__).parents[{depth}]", Level.ATOM) if depth else None
 
 
-def own_scenarios(module: ir.Module) -> list[ir.Scenario]:
-    """Return the scenarios of the file itself, without imported ones, and without actions."""
-    return [each for each in module.scenarios if not each.is_imported and not each.is_action]
-
-
 def main_scenario(module: ir.Module) -> ir.Scenario | None:
     """Return the only scenario of the file that no other one of it invokes, if there is one.
 
     One that is called `top` or `main` needs no such sign.
     """
-    own = own_scenarios(module)
+    own = module.own_scenarios
     found = [each for each in own if each.is_runnable]
     is_named = any(each.name in NAMES_OF_MAIN for each in own)
     return found[0] if len(found) == 1 and not is_named else None
@@ -241,7 +236,7 @@ def main_scenario(module: ir.Module) -> ir.Scenario | None:
 
 def shown_scenario(module: ir.Module) -> ir.Scenario | None:
     """Return the scenario whose tree viewers get: the one to run, else the last that can."""
-    own = own_scenarios(module)
+    own = module.own_scenarios
     by_name = {scenario.name: scenario for scenario in own}
     wanted = next((name for name in NAMES_OF_MAIN if name in by_name), None)
     if wanted:

@@ -7,7 +7,6 @@ from pathlib import PurePosixPath
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.environment import initial_environment
 from osc2tx.backends.xosc.adapting import adapted
-from osc2tx.backends.xosc.conditions.event_conditions import triggers_of
 from osc2tx.backends.xosc.conditions.flow import Flow, at_time, single
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.entities import scenario_objects
@@ -93,7 +92,7 @@ def _waits(ctx: Context) -> bool:
     """Whether the end may depend on something that never happens."""
     bodies = (scope.scenario.body for scope in ctx.scope.all())
     nodes = (node for body in bodies for node in ir.walk_behaviors(body))
-    triggers = (each for n in nodes if not isinstance(n, ir.On) for each in triggers_of(n))
+    triggers = (each for n in nodes if not isinstance(n, ir.On) for each in ir.triggers_of(n))
     return any(
         each.event is not None or not isinstance(each.condition, ir.Elapsed) for each in triggers
     )
@@ -160,18 +159,3 @@ def _variables(ctx: Context) -> xml.VariableDeclarations | None:
         for name, (type_, value) in ctx.variables.items()
     )
     return xml.VariableDeclarations(*declarations)
-
-
-def entry_scenarios(module: ir.Module) -> tuple[ir.Scenario, ...]:
-    """Return the scenarios that are written down: those of the file that can begin a run.
-
-    An action is a part of scenarios. So is a scenario that others invoke, and to which they have to
-    give values.
-    """
-    own = (each for each in module.scenarios if not each.is_imported and not each.is_action)
-    return tuple(
-        each
-        for each in own
-        if not each.is_invoked
-        or not any(isinstance(d, ir.Parameter) and d.is_required for d in each.declarations)
-    )

@@ -8,10 +8,9 @@ from osc2tx.backends.xosc.actions.leaf import Globals, Later
 from osc2tx.backends.xosc.actions.registry import GLOBAL_ACTIONS
 from osc2tx.backends.xosc.actions.signals.vehicle_lights import followed_lights
 from osc2tx.backends.xosc.actions.user_actions import command_of, no_model, own_command
-from osc2tx.backends.xosc.conditions.event_conditions import emitted_by, set_parameters
+from osc2tx.backends.xosc.conditions.expressions import set_parameters
 from osc2tx.backends.xosc.conditions.flow import NEVER, Edge, Flow, Test, single
 from osc2tx.backends.xosc.flattening.builder import RUN_START, StoryboardBuilder, construct_of
-from osc2tx.backends.xosc.flattening.tree_queries import entry_of
 from osc2tx.backends.xosc.names import event_name, plain
 from osc2tx.backends.xosc.report import GENERIC, Inexpressible
 from osc2tx.xosc import elements as xml
@@ -37,7 +36,7 @@ def react_periodically(
     begin = start.later(0.0 if every.offset is None else ctx.values.number(every.offset))
     pulse = ctx.names.new("pulse")
     up = (*actions, ctx.mark(pulse))
-    emitted = dict.fromkeys(emitted_by(node))
+    emitted = dict.fromkeys(ir.emitted_by(node))
     down = (*(builder.events.setting(name, "false") for name in emitted),)
     down = (*down, ctx.set_variable(pulse, "false"))
     is_up = Test(ctx.variable_is(pulse, "equalTo", "true"), delay=0.5 * period)
@@ -57,7 +56,9 @@ def emit(builder: StoryboardBuilder, node: ir.Emit, start: Flow) -> Flow:
     name = ctx.names.new(f"emit_{ctx.scope.prefix}{node.event.name}")
     setting = events.setting(node.event.name)
     done = builder.add(name, (*set_parameters(ctx, node), setting), start, actor=builder.mark_actor)
-    if events.is_emitted_often(node.event):  # the next occurrence needs an edge of its own
+    if events.occurrences.is_emitted_often(
+        node.event.name
+    ):  # the next occurrence needs an edge of its own
         reset = events.setting(node.event.name, "false")
         builder.add(ctx.names.new(f"after_{name}"), (reset,), done, actor=builder.mark_actor)
     else:
@@ -106,7 +107,7 @@ def react(builder: StoryboardBuilder, node: ir.On, start: Flow) -> Flow:
         return NEVER
     if node.trigger.event is None and not isinstance(condition, ir.Edge):
         raise Inexpressible("only an event or an edge can be reacted to")
-    once = not events.may_recur(node.trigger)
+    once = not events.occurrences.may_recur(node.trigger)
     occurs = builder.after(node.trigger, start)
     if not once:
         occurs = _each_time(occurs, start)
@@ -119,7 +120,7 @@ def react(builder: StoryboardBuilder, node: ir.On, start: Flow) -> Flow:
             for group in occurs.groups
         )
         over = Flow(tuple(turned))
-        reset = tuple(events.setting(event, "false") for event in emitted_by(node))
+        reset = tuple(events.setting(event, "false") for event in ir.emitted_by(node))
         builder.add(ctx.names.new(f"after_{name}"), reset, over, repeats=repeats)
     return NEVER
 
@@ -146,7 +147,7 @@ def _each_time(occurs: Flow, start: Flow) -> Flow:
 
 def invoke_global(builder: StoryboardBuilder, node: ir.Invoke, start: Flow) -> Flow:
     """Write down an action that concerns no entity; at the very start it goes to `Init`."""
-    ctx, entry = builder.ctx, entry_of(node)
+    ctx, entry = builder.ctx, ir.entry_of(node)
     actions: Globals = ()
     with ctx.report_as(construct_of(node), node.span):
         arguments = Arguments(ctx, node)

@@ -10,8 +10,6 @@ In `parallel(duration: 8s)` the members that never end by themselves end after 8
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from functools import lru_cache
 from math import inf
 from typing import Literal, TypeAlias
 
@@ -19,8 +17,7 @@ from osc2tx import ir
 from osc2tx.backends.xosc.conditions.flow import NEVER, Flow
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.flattening.builder import VERDICT, StoryboardBuilder, construct_of
-from osc2tx.backends.xosc.flattening.parallel_overlaps import is_open, length_of
-from osc2tx.backends.xosc.flattening.tree_queries import is_instant
+from osc2tx.backends.xosc.flattening.parallel_overlaps import length_of
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx_shared.classes import replace
 
@@ -53,7 +50,7 @@ def end_within_duration(
     if not isinstance(node, ir.InvokeScenario):
         length = length_of(builder.ctx, replace(node, duration=None, until=()))
     # A member without end fills what the others leave of a duration.
-    fills = isinstance(node, ir.Parallel) and any(map(is_open, node.members))
+    fills = isinstance(node, ir.Parallel) and any(map(ir.is_open, node.members))
     if length is not None and length <= high and (fills or low <= length):
         return (start.later(low) if length < low else content) | until
     if length is not None and role != "racer":
@@ -119,18 +116,20 @@ def time_frame(ctx: Context, node: ir.Invoke) -> tuple[float | None, float | Non
         Inexpressible: A duration ends it, and only the run shows when it starts; modifiers state
             what holds at its end.
     """
-    ends = is_open(node)
+    ends = ir.is_open(node)
     if ctx.module.dialect == "carla" or (not ends and node.duration is not None):
         return None, None
     passed: float | None = 0.0
-    for parent, before, after in _around(ctx, node):
+    for parent, before, after in ir.around(ctx.scope.scenario.body, node):
         for member in before:
             length = length_of(ctx, member)
             passed = None if passed is None or length is None else passed + length
         low, high = (0.0, inf) if parent.duration is None else ctx.values.bounds(parent.duration)
         is_planned = not after and _ends_with(parent, is_fixed=low == high)
         if not ends:
-            is_planned = passed is not None and all(map(is_instant, after)) and _begins_with(parent)
+            is_planned = (
+                passed is not None and all(map(ir.is_instant, after)) and _begins_with(parent)
+            )
         if not is_planned:
             break
         if parent.duration is None:
@@ -146,35 +145,9 @@ def time_frame(ctx: Context, node: ir.Invoke) -> tuple[float | None, float | Non
     return None, None
 
 
-def _around(
-    ctx: Context, node: ir.Behavior
-) -> Iterator[tuple[ir.Composition, Sequence[ir.Behavior], Sequence[ir.Behavior]]]:
-    """Yield the compositions around a member, from the inside out.
-
-    Each goes with the members before and after that one, if they follow one another.
-    """
-    parents = _parents(ctx.scope.scenario.body)
-    while (parent := parents.get(id(node))) is not None:
-        members = parent.members if isinstance(parent, ir.Serial) else (node,)
-        index = next(i for i, each in enumerate(members) if each is node)
-        yield parent, members[:index], members[index + 1 :]
-        node = parent
-
-
-@lru_cache(maxsize=16)  # of a scenario and those that it invokes
-def _parents(body: ir.Behavior) -> Mapping[int, ir.Composition]:
-    """Return the composition that each member stands in, by the id of the member."""
-    return {
-        id(member): each
-        for each in ir.walk_behaviors(body)
-        if isinstance(each, ir.Serial | ir.Parallel | ir.OneOf)
-        for member in each.members
-    }
-
-
 def _ends_with(node: ir.Composition, *, is_fixed: bool) -> bool:
     """Whether open-ended last members end with a composition, whose duration may be fixed."""
-    is_free = is_fixed or all(is_instant(each) or is_open(each) for each in node.members)
+    is_free = is_fixed or all(ir.is_instant(each) or ir.is_open(each) for each in node.members)
     return isinstance(node, ir.Serial) or (_begins_with(node) and is_free)
 
 

@@ -6,11 +6,7 @@ that begins after the occurrence does not see it, as in the DSL.
 
 from __future__ import annotations
 
-from collections import Counter, defaultdict
-from collections.abc import Iterator, Mapping, Sequence
-
 from osc2tx import ir
-from osc2tx.backends.xosc.conditions.event_conditions import early_triggers, emitted_by, triggers_of
 from osc2tx.backends.xosc.conditions.expressions import condition_flow
 from osc2tx.backends.xosc.conditions.flow import NEVER, Flow, Test, at_time, single
 from osc2tx.backends.xosc.context import Context
@@ -21,9 +17,6 @@ from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.scopes import Scope
 from osc2tx.xosc import elements as xml
 
-WAITABLE = (ir.Moment.START, ir.Moment.END)
-"""Life-cycle events; no behavior of the XML can fail."""
-
 
 class EventTable:
     """The events of one scenario at one place."""
@@ -32,59 +25,21 @@ class EventTable:
         """Find out who emits what and which labels are waited for."""
         self._ctx = ctx
         self._scope = scope
-        scenario = scope.scenario
-        self._declared = {d.name: d for d in scenario.declarations if isinstance(d, ir.Event)}
-        nodes = ir.walk_behaviors(scenario.body)
-        self._emitted = Counter(name for node in nodes for name in emitted_by(node))
-        self._reacting = _reactions(scenario.body)
-        self._early = early_triggers(scenario.body)
-        self._fleeting = {
-            ctx.variable_name(scope.prefix + name) for name in self._fleeting_events()
-        }
+        self.occurrences = ir.Occurrences(scope.scenario)
+        self._early = ir.early_triggers(scope.scenario.body)
+        recurring = self.occurrences.recurring()
+        self._fleeting = {ctx.variable_name(scope.prefix + name) for name in recurring}
         self._signals = dict(map(read_signal, ctx.options.signals))
         self._following: list[str] = []  # events whose trigger is being looked at
         self._marks = {
             key: ctx.names.new(f"{key[1].value}_of_{plain(scope.prefix + key[0])}")
-            for key in dict.fromkeys(self._waited())
+            for key in dict.fromkeys(self.occurrences.waited())
         }
-
-    def _waited(self) -> Iterator[tuple[str, ir.Moment]]:
-        """Yield the labels whose start or end is waited for."""
-        for node in ir.walk_behaviors(self._scope.scenario.body):
-            for trigger in triggers_of(node):
-                if isinstance(trigger.event, ir.LabelEvent) and trigger.event.moment in WAITABLE:
-                    yield trigger.event.label, trigger.event.moment
-        for override in self._scope.scenario.overrides:
-            yield override.by, ir.Moment.START
-            if override.mode == "when_active":
-                yield override.by, ir.Moment.END
-
-    def _fleeting_events(self) -> Iterator[str]:
-        """Yield the events whose variables are taken back, for they may occur again."""
-        yield from (name for name, count in self._emitted.items() if count > 1)
-        for node in ir.walk_behaviors(self._scope.scenario.body):
-            if isinstance(node, ir.On) and self.may_recur(node.trigger):
-                yield from emitted_by(node)
-
-    def may_recur(self, trigger: ir.Trigger, seen: frozenset[str] = frozenset()) -> bool:
-        """Whether a trigger may occur more than once; what comes from outside is set once."""
-        event = trigger.event
-        if event is None:
-            return True
-        if not isinstance(event, ir.EventRef) or event.name in seen:
-            return False
-        seen = seen | {event.name}
-        declared = self._declared.get(event.name)
-        if declared is not None and declared.trigger is not None:
-            return self.may_recur(declared.trigger, seen)
-        return self.is_emitted_often(event) or any(
-            self.may_recur(node.trigger, seen) for node in self._reacting.get(event.name, ())
-        )
 
     def signals(self) -> list[Event]:
         """Return the occurrences of events from outside whose time is given."""
         events = []
-        for name, declared in self._declared.items():
+        for name, declared in self.occurrences.declared.items():
             time = self._signals.get(self._scope.prefix + name)
             if time is None:
                 continue
@@ -94,17 +49,13 @@ class EventTable:
             self._ctx.report.exact(f"signal {name}", declared.span, f"at {time:g} s, as given")
         return events
 
-    def is_emitted_often(self, event: ir.EventRef) -> bool:
-        """Whether there are several places that emit an event."""
-        return self._emitted[event.name] > 1
-
     def occurrence(self, trigger: ir.Trigger) -> Flow:
         """Return the tests for an occurrence of the event of a trigger from now on."""
         is_early = id(trigger) in self._early
         match trigger.event:
             case ir.EventRef(name=name) as event:
                 return self.of_event(name, event, is_early=is_early)
-            case ir.LabelEvent(label=label, moment=moment) if moment in WAITABLE:
+            case ir.LabelEvent(label=label, moment=moment) if moment in ir.WAITABLE:
                 return self.of_label(label, moment, is_early=is_early)
         raise Inexpressible(f"`{trigger.span.text}` has no counterpart here", trigger.span)
 
@@ -128,7 +79,7 @@ class EventTable:
 
         An early wait surely begins before the event can occur.
         """
-        declared = self._declared[name]
+        declared = self.occurrences.declared[name]
         trigger = declared.trigger
         if trigger is not None:
             if trigger.condition is None and trigger.event is not None:
@@ -136,34 +87,18 @@ class EventTable:
             if trigger.event is not None or trigger.condition is None:
                 raise Inexpressible("an event that follows another one under a condition", at.span)
             return condition_flow(self._ctx, trigger.condition)
-        if name not in self._emitted and self._scope.prefix + name not in self._signals:
+        if name not in self.occurrences.emitted and self._scope.prefix + name not in self._signals:
             return self._from_outside(name, at, is_early=is_early)
-        if not is_early and self._lasts(name):
+        if not is_early and self.occurrences.lasts(name):
             return self._while_it_lasts(name, at)
         return self._is_set(self.variable(name), is_early=is_early)
-
-    def _lasts(self, name: str, seen: frozenset[str] = frozenset()) -> bool:
-        """Whether an event occurs at each instant at which some condition holds."""
-        return name not in seen and any(
-            self._is_level(node.trigger, seen | {name}) for node in self._reacting.get(name, ())
-        )
-
-    def _is_level(self, trigger: ir.Trigger, seen: frozenset[str]) -> bool:
-        if trigger.event is None:
-            return isinstance(trigger.condition, ir.Level)
-        if not isinstance(trigger.event, ir.EventRef):
-            return False
-        declared = self._declared[trigger.event.name].trigger
-        if declared is not None:
-            return self._is_level(declared, seen)
-        return self._lasts(trigger.event.name, seen)
 
     def _while_it_lasts(self, name: str, at: ir.EventRef | ir.InnerEvent) -> Flow:
         """Return the tests for an event that occurs for as long as the reactions see reasons.
 
         Who begins to wait then does not wait for the next time at which such a time begins.
         """
-        reactions = self._reacting.get(name, ())
+        reactions = self.occurrences.reacting.get(name, ())
         flow = NEVER
         for node in reactions:
             condition, event = node.trigger.condition, node.trigger.event
@@ -213,13 +148,3 @@ class EventTable:
         variable = self._ctx.variable_name(self._scope.prefix + name)
         self._ctx.declare(variable, "boolean", "false")
         return variable
-
-
-def _reactions(body: ir.Behavior) -> Mapping[str, Sequence[ir.On]]:
-    """Return the members that react with an event, by its name."""
-    found: dict[str, list[ir.On]] = defaultdict(list)
-    for node in ir.walk_behaviors(body):
-        if isinstance(node, ir.On):
-            for name in dict.fromkeys(emitted_by(node)):
-                found[name].append(node)
-    return found

@@ -19,18 +19,12 @@ from osc2tx.backends.xosc.flattening.directives import call, emit, finish, react
 from osc2tx.backends.xosc.flattening.durations import Role, end_within_duration
 from osc2tx.backends.xosc.flattening.leaves import end_open_actions, invoke
 from osc2tx.backends.xosc.flattening.parallel_overlaps import (
-    is_open,
     report_conflicts,
     starts_of,
     unless_active,
 )
 from osc2tx.backends.xosc.flattening.storyboard import Act
-from osc2tx.backends.xosc.flattening.tree_queries import (
-    follows_route,
-    is_instant,
-    is_single,
-    starts_at_once,
-)
+from osc2tx.backends.xosc.flattening.tree_queries import follows_route
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.state import either
 from osc2tx.diagnostics import Span
@@ -113,7 +107,7 @@ class Flattener:
         for index, member in enumerate(node.members):
             flow = self._member(member, flow)
             is_last = index + 1 == len(node.members)
-            if flow.is_never and not is_last and is_open(member):
+            if flow.is_never and not is_last and ir.is_open(member):
                 raise Inexpressible(
                     "it never ends by itself, so what follows would never start: every run fails",
                     member.span,
@@ -144,7 +138,7 @@ class Flattener:
 
     def _joined(self, ends: Sequence[tuple[ir.Behavior, Flow]]) -> Flow:
         """Return when all bounded members have ended; members without duration bound nothing."""
-        timed = [(member, end) for member, end in ends if not is_instant(member)]
+        timed = [(member, end) for member, end in ends if not ir.is_instant(member)]
         for member, _ in timed if len(timed) > 1 else ():
             if follows_route(member):
                 raise Inexpressible("a route of the map that others may end", member.span)
@@ -176,7 +170,8 @@ class Flattener:
             start = self._builder.latched(start, self._builder.name_of(node))
         is_race = len(node.members) > 1
         single = [
-            is_single(member) and not (is_race and ir.is_timed(member)) for member in node.members
+            ir.is_single(member) and not (is_race and ir.is_timed(member))
+            for member in node.members
         ]
         races = not all(single)
         acts: list[Act] = []
@@ -254,8 +249,8 @@ class Flattener:
                 node, end_within_duration(builder, node, start, body(start), "racer")
             )
         role: Role = "in a race" if self._is_racing else "alone"
-        needs_no_stop = not self._ctx.profile.has_act_stop and starts_at_once(node)
-        if is_single(node) or needs_no_stop:
+        needs_no_stop = not self._ctx.profile.has_act_stop and ir.starts_at_once(node)
+        if ir.is_single(node) or needs_no_stop:
             outer, builder.is_race = builder.is_race, True
             end = end_within_duration(builder, node, start, body(start), role)
             builder.is_race = outer

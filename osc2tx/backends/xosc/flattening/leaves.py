@@ -15,7 +15,6 @@ from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.flattening.builder import RUN_START, StoryboardBuilder
 from osc2tx.backends.xosc.flattening.directives import invoke_global
 from osc2tx.backends.xosc.flattening.durations import time_frame
-from osc2tx.backends.xosc.flattening.tree_queries import entry_of
 from osc2tx.backends.xosc.names import event_name
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.state import LATERAL, LONGITUDINAL, WAY, ActorState
@@ -25,7 +24,7 @@ from osc2tx_shared.classes import replace
 
 def invoke(builder: StoryboardBuilder, node: ir.Invoke, start: Flow) -> Flow:
     """Write down an invocation that starts with a flow; return when it ends."""
-    is_known = entry_of(node) is not None
+    is_known = ir.entry_of(node) is not None
     if node.actor is None or (is_known and node.action in GLOBAL_ACTIONS):
         return invoke_global(builder, node, start)
     ctx = builder.ctx

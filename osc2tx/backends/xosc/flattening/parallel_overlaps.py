@@ -14,7 +14,7 @@ from osc2tx.backends.xosc.conditions.flow import NEVER, Flow
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.facts.start_places import plan_starts
 from osc2tx.backends.xosc.flattening.builder import StoryboardBuilder
-from osc2tx.backends.xosc.flattening.tree_queries import claims, entry_of, is_instant
+from osc2tx.backends.xosc.flattening.tree_queries import claims
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.values.constants import Bounds
 from osc2tx_shared.classes import replace
@@ -30,8 +30,8 @@ def starts_of(ctx: Context, node: ir.Parallel) -> list[float | None]:
     """
     if node.overlap in (None, "start", "any") and not (node.start_to_start or node.end_to_end):
         return [0.0] * len(node.members)
-    timed = [member for member in node.members if not is_instant(member)]
-    parts = [(member.name, length_of(ctx, member), is_open(member)) for member in timed]
+    timed = [member for member in node.members if not ir.is_instant(member)]
+    parts = [(member.name, length_of(ctx, member), ir.is_open(member)) for member in timed]
     overlap = node.overlap or ("any" if node.start_to_start else "start")
     starts, ends = (
         None if each is None else ctx.values.bounds(each)
@@ -40,21 +40,6 @@ def starts_of(ctx: Context, node: ir.Parallel) -> list[float | None]:
     planned = plan_starts(parts, overlap, starts, ends, node.span)
     by_member = dict(zip(map(id, timed), planned, strict=True))
     return [by_member.get(id(member), 0.0) for member in node.members]
-
-
-def is_open(node: ir.Behavior) -> bool:
-    """Whether a member goes on for as long as one likes."""
-    match node:
-        case ir.Invoke():
-            entry = entry_of(node)
-            is_endless = entry is not None and entry.ends == "open"
-            return is_endless and node.duration is None and not node.until
-        case ir.Serial(members=members):
-            return not node.until and node.duration is None and is_open(members[-1])
-        case ir.Parallel(members=members) | ir.OneOf(members=members):
-            return not node.until and node.duration is None and all(map(is_open, members))
-        case _:
-            return False
 
 
 def length_of(ctx: Context, node: ir.Behavior) -> float | None:
@@ -74,9 +59,9 @@ def length_of(ctx: Context, node: ir.Behavior) -> float | None:
             lengths = [length_of(ctx, member) for member in members]
             return None if None in lengths else sum(filter(None, lengths))
         case ir.Parallel(members=members) if node.overlap in (None, "start"):
-            lengths = [length_of(ctx, member) for member in members if not is_open(member)]
+            lengths = [length_of(ctx, member) for member in members if not ir.is_open(member)]
             return None if None in lengths else max(filter(None, lengths), default=0.0)
-        case _ if is_instant(node):
+        case _ if ir.is_instant(node):
             return 0.0
     return None
 
@@ -87,13 +72,13 @@ def length_of(ctx: Context, node: ir.Behavior) -> float | None:
 def report_conflicts(ctx: Context, node: ir.Parallel) -> None:
     """Report actions that control what another one surely controls at the same time."""
     overridden = {override.overridden for override in ctx.scope.scenario.overrides}
-    first = {id(each) for member in node.members for each in _from_the_start(member)}
-    at_once = first if _starts_together(node) else set()
-    lasting = {id(each) for each in node.members if id(each) in first and is_open(each)}
+    first = {id(each) for member in node.members for each in ir.first_actions(member)}
+    at_once = first if ir.starts_together(node) else set()
+    lasting = {id(each) for each in node.members if id(each) in first and ir.is_open(each)}
     claimants: dict[tuple[str, str], list[tuple[int, ir.Invoke]]] = {}
     for number, member in enumerate(node.members):
         for action in ir.invocations(member):
-            if not _takes_time(action) or action.label in overridden:
+            if not ir.takes_time(action) or action.label in overridden:
                 continue
             going_on = tuple(call for call in action.modifiers if call.at != "start")
             for what in claims(replace(action, modifiers=going_on)):
@@ -111,28 +96,6 @@ def report_conflicts(ctx: Context, node: ir.Parallel) -> None:
             reason = f"runs fail: it would control what `{head}` controls at the same time"
             instead = Remedy(instead="one after the other, or with an `override`, they are exact")
             ctx.report.cannot(f"action {rival.action}", rival.span, reason, instead)
-
-
-def _starts_together(node: ir.Parallel) -> bool:
-    return node.overlap is None and not (node.start_to_start or node.end_to_end)
-
-
-def _from_the_start(member: ir.Behavior) -> list[ir.Invoke]:
-    """Return the actions that begin when a member does."""
-    match member:
-        case ir.Serial(members=members):
-            return _from_the_start(members[0])
-        case ir.Parallel(members=members) if _starts_together(member):
-            return [found for each in members for found in _from_the_start(each)]
-        case ir.Invoke() if _takes_time(member):
-            return [member]
-        case _:
-            return []
-
-
-def _takes_time(node: ir.Invoke) -> bool:
-    entry = entry_of(node)
-    return entry is not None and entry.ends in ("goal", "open")
 
 
 # --- overrides ------------------------------------------------------------------------------------

@@ -1,35 +1,14 @@
-"""Properties of members of a tree: instant, timed, the domains they control."""
+"""What members of a tree take over: the domains that their elements control, and routes."""
 
 from __future__ import annotations
 
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.registry import TAKES
 from osc2tx.backends.xosc.state import LATERAL, LONGITUDINAL
-from osc2tx.catalogue import ActionEntry, catalogue
+from osc2tx.catalogue import catalogue
 
 DIRECTIONS_ALONG = ("ahead", "behind", "longitudinal")
 """Directions of an action that is about the speed; in others it is about the place in the lane."""
-
-
-def entry_of(node: ir.Invoke) -> ActionEntry | None:
-    """Return the catalogue entry of an action; `None` for one that the scenario declares."""
-    return catalogue().actions.get(node.qualified_name)
-
-
-def is_instant(node: ir.Behavior) -> bool:
-    """Whether a member takes no time."""
-    match node:
-        case ir.Serial(members=members) | ir.Parallel(members=members):
-            return node.duration is None and all(is_instant(member) for member in members)
-        case ir.OneOf(members=members):
-            return all(is_instant(member) for member in members)
-        case ir.Invoke():
-            entry = entry_of(node)
-            return entry is not None and entry.ends == "instant" and node.duration is None
-        case ir.Emit() | ir.Finish() | ir.Call() | ir.On():
-            return True
-        case ir.InvokeScenario() | ir.Wait():
-            return False
 
 
 def claims(node: ir.Behavior) -> frozenset[tuple[str, str]]:
@@ -46,7 +25,7 @@ def claims(node: ir.Behavior) -> frozenset[tuple[str, str]]:
 
 
 def _domains(node: ir.Invoke) -> frozenset[str]:
-    entry, modifiers = entry_of(node), catalogue().modifiers
+    entry, modifiers = ir.entry_of(node), catalogue().modifiers
     slots = () if entry is None else entry.slots
     if LONGITUDINAL in slots and _is_sideways(node):
         return frozenset((LATERAL,))
@@ -76,33 +55,3 @@ def follows_route(node: ir.Behavior) -> bool:
     ways = [modifier for modifier in node.modifiers if modifier.name == "along"]
     routes = (a.value for way in ways for a in way.arguments if a.parameter == "route")
     return any(route.type.name not in ("crossing", "path") for route in routes)
-
-
-def starts_at_once(node: ir.Behavior) -> bool:
-    """Whether all actions in a member start when it does: nothing in it is left to be stopped."""
-    match node:
-        case ir.Parallel(overlap=None, start_to_start=None, end_to_end=None, members=members):
-            return all(map(starts_at_once, members))
-        case ir.Invoke():
-            return True
-        case _:
-            return False
-
-
-def is_single(node: ir.Behavior) -> bool:
-    """Whether nothing has to be stopped but one action: a leaf, or waits before and after it."""
-    return _leaves(node) <= 1
-
-
-def _leaves(node: ir.Behavior) -> int:
-    match node:
-        case ir.Parallel(members=members) if len(members) > 1:
-            return 2
-        case ir.Serial(members=members) | ir.Parallel(members=members) | ir.OneOf(members=members):
-            return sum(_leaves(member) for member in members)
-        case ir.Wait():
-            return 0
-        case ir.Invoke():
-            return 1
-        case ir.Emit() | ir.Finish() | ir.Call() | ir.On() | ir.InvokeScenario():
-            return 2
