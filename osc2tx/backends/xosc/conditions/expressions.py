@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.signals.traffic_lights import lamps_condition, shows
 from osc2tx.backends.xosc.conditions.comparisons import Comparison, Groups, relative_speed
-from osc2tx.backends.xosc.conditions.flow import NEVER, Edge, Flow, Test
+from osc2tx.backends.xosc.conditions.flow import NEVER, Edge, Flow, Test, all_of, any_of
 from osc2tx.backends.xosc.conditions.measures import FINITE, MEASURES
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.logical.parameters import value_text
@@ -81,10 +81,10 @@ def _flow(ctx: Context, expression: ir.Expression, *, negated: bool, edge: Edge)
             first = _flow(ctx, left, negated=not negated, edge=edge)
             second = _flow(ctx, right, negated=negated, edge=edge)
             return first & second if negated else first | second
-        case ir.Binary(operator="and" | "or" as operator, left=left, right=right):
-            first = _flow(ctx, left, negated=negated, edge=edge)
-            second = _flow(ctx, right, negated=negated, edge=edge)
-            return first & second if (operator == "and") is not negated else first | second
+        case ir.Binary(operator="and" | "or" as operator):
+            joined = all_of if (operator == "and") is not negated else any_of
+            operands = _operands(expression, operator)
+            return joined([_flow(ctx, each, negated=negated, edge=edge) for each in operands])
         case ir.Binary(operator=operator) if operator in RULES and ir.is_live(expression):
             return _comparison(ctx, expression, OPPOSITE[operator] if negated else operator, edge)
     if isinstance(expression, ir.EventArgument):  # a truth value
@@ -94,6 +94,15 @@ def _flow(ctx: Context, expression: ir.Expression, *, negated: bool, edge: Edge)
     raise Inexpressible(
         f"`{expression.span.text}` is no comparison with a constant", expression.span
     )
+
+
+def _operands(expression: ir.Expression, operator: str) -> list[ir.Expression]:
+    """Return what a chain of one operator joins, from left to right."""
+    found = []
+    while isinstance(expression, ir.Binary) and expression.operator == operator:
+        found.append(expression.right)
+        expression = expression.left
+    return [expression, *reversed(found)]
 
 
 def _light_edge(ctx: Context, call: ir.MethodCall, *, rising: bool) -> Flow:
