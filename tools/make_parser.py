@@ -12,15 +12,21 @@ import subprocess
 import sys
 import tempfile
 from pathlib import Path
+from textwrap import dedent
 
 ROOT = Path(__file__).resolve().parents[1]
 GRAMMAR = ROOT / "grammar"
 TARGET = ROOT / "osc2tx" / "syntax" / "_antlr"
 TOOL = "antlr-ng@1.0.10"
+CLASS = "OpenSCENARIO2"
 DOCSTRING = (
     '"""The parser made from grammar/OpenSCENARIO2.g4 by `make parser`; not to be edited."""\n'
 )
 IMPORTS = """\
+from __future__ import annotations
+
+from typing import Final
+
 from osc2tx.syntax.parser_runtime import (
     Network,
     NoViableAltException,
@@ -83,11 +89,31 @@ def trim(text: str) -> str:
         FAILURE, FAILURE.splitlines()[0] + "\n            self.recover(localctx, re)\n"
     )
     head, *rules = re.split(r"(?=^    class \w+\(ParserRuleContext\))", text, flags=re.M)
-    return DOCSTRING + IMPORTS + "\n\n".join(map(_without_blanks, [head, *map(_trim_rule, rules)]))
+    contexts, methods = zip(*map(_rule, rules), strict=True)
+    parts = (_constants(head), *contexts, f"class {CLASS}(Parser):\n{methods[0]}", *methods[1:])
+    return DOCSTRING + IMPORTS + "\n\n".join(map(_without_blanks, parts))
+
+
+def _constants(head: str) -> str:
+    """Return what stands before the rules: constants of the module, which cost less to read."""
+    head = head.replace("def serializedATN():", "def serializedATN() -> list[int]:")
+    before, _, members = head.partition(f"class {CLASS}(Parser):\n")
+    members = re.sub(r"^(\w+) *= *(-?\d+)$", r"\1: Final = \2", dedent(members), flags=re.M)
+    return f"{before}\n{members}"
+
+
+def _rule(text: str) -> tuple[str, str]:
+    """Return the class of the context of a rule, and its method."""
+    context, method = re.split(r"(?=^    def )", text, maxsplit=1, flags=re.M)
+    named = re.sub(rf"\b(?:{CLASS}|self)\.(?=[A-Z])", "", method)
+    returned = re.search(r"class (\w+)", context)
+    assert returned is not None, context
+    named = named.replace("(self):", f"(self) -> {returned[1]}:", 1)
+    return dedent(context), _trim_rule(named)
 
 
 def _trim_rule(text: str) -> str:
-    """Return the context and the method of a rule; tokens are read without a call."""
+    """Return the method of a rule; tokens are read without a call."""
     name = re.search(r"^    def (\w+)", text, re.M)
     if name is not None and name[1] not in SYNCHRONIZED:
         text = re.sub(r"^ +self\._errHandler\.sync\(self\)\n", "", text, flags=re.M)
@@ -102,7 +128,7 @@ def _trim_rule(text: str) -> str:
 def _without_blanks(text: str) -> str:
     lines = [line.rstrip() for line in text.splitlines()]
     kept = [line for line in lines if line and not line.lstrip().startswith(DROPPED)]
-    return "\n".join(f"\n{line}" if line.startswith("    def ") else line for line in kept) + "\n"
+    return "\n".join(kept) + "\n"
 
 
 if __name__ == "__main__":

@@ -9,7 +9,7 @@ from osc2tx.diagnostics import DiagnosticSink, Span
 from osc2tx.diagnostics.fixes import Edit, Remedy, rewrite
 from osc2tx.diagnostics.source import LINE_END
 from osc2tx.syntax import ast
-from osc2tx.syntax._antlr.OpenSCENARIO2 import OpenSCENARIO2 as Grammar
+from osc2tx.syntax._antlr import OpenSCENARIO2 as Grammar
 from osc2tx.syntax.ast_builder import behaviors, declarations, enums, members, names
 from osc2tx.syntax.ast_builder.base import Builder, Tree
 from osc2tx.syntax.ast_builder.statement_contexts import Place

@@ -11,7 +11,7 @@ from functools import cache
 from typing import Any
 
 from osc2tx.diagnostics import DiagnosticSink
-from osc2tx.syntax._antlr.OpenSCENARIO2 import OpenSCENARIO2 as Grammar
+from osc2tx.syntax._antlr import OpenSCENARIO2 as Grammar
 from osc2tx.syntax.parser_runtime import RecognitionException, TokenStream
 from osc2tx.syntax.syntax_errors import SyntaxErrors
 from osc2tx.syntax.tokens import DEDENT, EOF, INDENT, KEYWORDS, NEWLINE, TokenTable
@@ -92,7 +92,7 @@ class _RuleEntered(Exception):
     """The rule `statement` has chosen an alternative."""
 
 
-class _Probe(Grammar):  # type: ignore[misc, unused-ignore]
+class _Probe(Grammar.OpenSCENARIO2):
     """The parser up to the choice between the alternatives of `statement`."""
 
     def enterRule(self, context: Tree, state: int, rule: int) -> None:
@@ -127,13 +127,12 @@ def statement_starts() -> frozenset[int]:
 
 @cache
 def _block_call() -> int:
-    state: int = Grammar.atn.state_that_calls(Grammar.RULE_block)
-    return state
+    return Grammar.atn.state_that_calls(Grammar.RULE_block)
 
 
 def parse_tokens(table: TokenTable, sink: DiagnosticSink) -> Tree:
     """Return the tree of the rule `sourceFile`; statements with mistakes are marked in it."""
     stream = TokenStream(table.types)
-    parser = Grammar(stream)
+    parser = Grammar.OpenSCENARIO2(stream)
     parser._errHandler = StatementRecovery(stream, SyntaxErrors(table, sink))
     return parser.sourceFile()

@@ -45,6 +45,9 @@ class ParserRuleContext:
     """
 
     __slots__ = ("children", "exception", "invokingState", "parentCtx", "start", "stop")
+    children: list[Any]
+    start: int
+    stop: int
 
     def __init__(self, parent: ParserRuleContext | None, invoking_state: int) -> None:
         """Begin the node; `Parser.enterRule` sets its position."""
@@ -61,10 +64,10 @@ class Parser:
     def __init__(self, stream: TokenStream) -> None:
         """Read a stream from its first token."""
         self._input = stream
-        self._ctx: Any = None
+        self._ctx: ParserRuleContext | None = None
         self.state = -1
 
-    def enterRule(self, context: Any, state: int, rule: int) -> None:
+    def enterRule(self, context: ParserRuleContext, state: int, rule: int) -> None:
         """Add a context below the current one, and make it the current one."""
         self.state = state
         context.start = self._input.index
@@ -74,7 +77,7 @@ class Parser:
             parent.children.append(context)
         self._ctx = context
 
-    def recover(self, context: Any, error: RecognitionException) -> None:
+    def recover(self, context: ParserRuleContext, error: RecognitionException) -> None:
         """Report a mismatch in a rule, and continue behind it or in the calling rule."""
         context.exception = error
         self._errHandler.reportError(self, error)
@@ -83,6 +86,7 @@ class Parser:
     def exitRule(self) -> None:
         """Make the context above the current one."""
         context = self._ctx
+        assert context is not None, "a rule is being read"
         context.stop = self._input.index - 1
         self.state = context.invokingState
         self._ctx = context.parentCtx
@@ -92,9 +96,10 @@ class Parser:
         """Read a token of a type."""
         stream = self._input
         index = stream.index
-        if stream.types[index] != expected:
+        context = self._ctx
+        if stream.types[index] != expected or context is None:
             raise RecognitionException
-        self._ctx.children.append(index)
+        context.children.append(index)
         if expected != EOF:
             stream.index = index + 1
 
@@ -102,7 +107,9 @@ class Parser:
         """Read the current token, whose type was looked at before."""
         stream = self._input
         index = stream.index
-        self._ctx.children.append(index)
+        context = self._ctx
+        assert context is not None, "a rule is being read"
+        context.children.append(index)
         stream.index = index + 1
 
 

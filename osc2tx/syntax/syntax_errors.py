@@ -7,7 +7,7 @@ from typing import Any
 
 from osc2tx.diagnostics import DiagnosticSink, Span
 from osc2tx.syntax import tokens as t
-from osc2tx.syntax._antlr.OpenSCENARIO2 import OpenSCENARIO2 as Grammar
+from osc2tx.syntax._antlr import OpenSCENARIO2 as Grammar
 from osc2tx.syntax.common_mistakes import remedy
 from osc2tx.syntax.mistake_places import Advice
 from osc2tx.syntax.tokens import TokenTable

@@ -6,7 +6,7 @@ from dataclasses import field
 from typing import NamedTuple
 
 from osc2tx.diagnostics import SourceFile, Span
-from osc2tx.syntax._antlr.OpenSCENARIO2 import OpenSCENARIO2 as Grammar
+from osc2tx.syntax._antlr import OpenSCENARIO2 as Grammar
 from osc2tx_shared.classes import dataclass
 
 EOF = -1

@@ -1,4 +1,8 @@
 """The parser made from grammar/OpenSCENARIO2.g4 by `make parser`; not to be edited."""
+from __future__ import annotations
+
+from typing import Final
+
 from osc2tx.syntax.parser_runtime import (
     Network,
     NoViableAltException,
@@ -7,7 +11,7 @@ from osc2tx.syntax.parser_runtime import (
     RecognitionException,
 )
 
-def serializedATN():
+def serializedATN() -> list[int]:
     return [
         4,1,84,695,2,0,7,0,2,1,7,1,2,2,7,2,2,3,7,3,2,4,7,4,2,5,7,5,2,6,7,
         6,2,7,7,7,2,8,7,8,2,9,7,9,2,10,7,10,2,11,7,11,2,12,7,12,2,13,7,13,
@@ -277,168 +281,365 @@ def serializedATN():
         544,551,556,559,562,566,569,575,581,587,593,598,607,616,626,633,
         642,644,646,654,668,671,673,676,681,687,691
     ]
+atn = Network(serializedATN())
+literalNames = [ "<INVALID>", "<INVALID>", "<INVALID>", "<INVALID>",
+                 "<INVALID>", "<INVALID>", "<INVALID>", "<INVALID>",
+                 "<INVALID>", "<INVALID>", "'import'", "'namespace'",
+                 "'use'", "'export'", "'type'", "'unit'", "'enum'",
+                 "'struct'", "'actor'", "'scenario'", "'action'", "'modifier'",
+                 "'extend'", "'global'", "'inherits'", "'of'", "'is'",
+                 "'event'", "'var'", "'def'", "'keep'", "'remove_default'",
+                 "'cover'", "'record'", "'default'", "'hard'", "'only'",
+                 "'expression'", "'undefined'", "'external'", "'sample'",
+                 "'list'", "'range'", "'do'", "'on'", "'serial'", "'parallel'",
+                 "'one_of'", "'wait'", "'emit'", "'call'", "'until'",
+                 "'with'", "'as'", "'if'", "'and'", "'or'", "'not'",
+                 "'in'", "':'", "','", "'.'", "'..'", "'='", "'@'",
+                 "'->'", "'?'", "'!'", "'::'", "'('", "')'", "'['",
+                 "']'", "'=>'", "'=='", "'!='", "'<'", "'<='", "'>'",
+                 "'>='", "'+'", "'-'", "'*'", "'/'", "'%'" ]
+RULE_sourceFile: Final = 0
+RULE_block: Final = 1
+RULE_statement: Final = 2
+RULE_body: Final = 3
+RULE_withBlock: Final = 4
+RULE_importStatement: Final = 5
+RULE_dottedName: Final = 6
+RULE_namespaceStatement: Final = 7
+RULE_useStatement: Final = 8
+RULE_exportStatement: Final = 9
+RULE_exportItem: Final = 10
+RULE_globalParameter: Final = 11
+RULE_typeName: Final = 12
+RULE_behaviorName: Final = 13
+RULE_physicalTypeDeclaration: Final = 14
+RULE_unitDeclaration: Final = 15
+RULE_siUnit: Final = 16
+RULE_enumDeclaration: Final = 17
+RULE_enumMembers: Final = 18
+RULE_enumMember: Final = 19
+RULE_structDeclaration: Final = 20
+RULE_actorDeclaration: Final = 21
+RULE_scenarioDeclaration: Final = 22
+RULE_actionDeclaration: Final = 23
+RULE_modifierDeclaration: Final = 24
+RULE_inheritance: Final = 25
+RULE_extension: Final = 26
+RULE_eventDeclaration: Final = 27
+RULE_parameters: Final = 28
+RULE_parameter: Final = 29
+RULE_eventSpecification: Final = 30
+RULE_variableDeclaration: Final = 31
+RULE_sampleExpression: Final = 32
+RULE_methodDeclaration: Final = 33
+RULE_keepConstraint: Final = 34
+RULE_removeDefault: Final = 35
+RULE_coverageDeclaration: Final = 36
+RULE_nameStatement: Final = 37
+RULE_typedRest: Final = 38
+RULE_ending: Final = 39
+RULE_onDirective: Final = 40
+RULE_doDirective: Final = 41
+RULE_composition: Final = 42
+RULE_waitDirective: Final = 43
+RULE_emitDirective: Final = 44
+RULE_callDirective: Final = 45
+RULE_untilDirective: Final = 46
+RULE_expression: Final = 47
+RULE_group: Final = 48
+RULE_arguments: Final = 49
+EOF: Final = -1
+NEWLINE: Final = 1
+INDENT: Final = 2
+DEDENT: Final = 3
+ID: Final = 4
+INTEGER: Final = 5
+FLOAT: Final = 6
+PHYSICAL: Final = 7
+STRING: Final = 8
+NAMESPACE_STAR: Final = 9
+IMPORT: Final = 10
+NAMESPACE: Final = 11
+USE: Final = 12
+EXPORT: Final = 13
+TYPE: Final = 14
+UNIT: Final = 15
+ENUM: Final = 16
+STRUCT: Final = 17
+ACTOR: Final = 18
+SCENARIO: Final = 19
+ACTION: Final = 20
+MODIFIER: Final = 21
+EXTEND: Final = 22
+GLOBAL: Final = 23
+INHERITS: Final = 24
+OF: Final = 25
+IS: Final = 26
+EVENT: Final = 27
+VAR: Final = 28
+DEF: Final = 29
+KEEP: Final = 30
+REMOVE_DEFAULT: Final = 31
+COVER: Final = 32
+RECORD: Final = 33
+DEFAULT: Final = 34
+HARD: Final = 35
+ONLY: Final = 36
+EXPRESSION: Final = 37
+UNDEFINED: Final = 38
+EXTERNAL: Final = 39
+SAMPLE: Final = 40
+LIST: Final = 41
+RANGE: Final = 42
+DO: Final = 43
+ON: Final = 44
+SERIAL: Final = 45
+PARALLEL: Final = 46
+ONE_OF: Final = 47
+WAIT: Final = 48
+EMIT: Final = 49
+CALL: Final = 50
+UNTIL: Final = 51
+WITH: Final = 52
+AS: Final = 53
+IF: Final = 54
+AND: Final = 55
+OR: Final = 56
+NOT: Final = 57
+IN: Final = 58
+COLON: Final = 59
+COMMA: Final = 60
+DOT: Final = 61
+RANGE_DOTS: Final = 62
+ASSIGN: Final = 63
+AT: Final = 64
+ARROW: Final = 65
+QUESTION: Final = 66
+BANG: Final = 67
+DOUBLE_COLON: Final = 68
+LPAREN: Final = 69
+RPAREN: Final = 70
+LBRACKET: Final = 71
+RBRACKET: Final = 72
+IMPLIES: Final = 73
+EQUAL: Final = 74
+NOT_EQUAL: Final = 75
+LESS: Final = 76
+LESS_EQUAL: Final = 77
+GREATER: Final = 78
+GREATER_EQUAL: Final = 79
+PLUS: Final = 80
+MINUS: Final = 81
+STAR: Final = 82
+SLASH: Final = 83
+PERCENT: Final = 84
+
+
+class SourceFileContext(ParserRuleContext):
+    __slots__ = ()
+
+
+class BlockContext(ParserRuleContext):
+    __slots__ = ()
+
+
+class StatementContext(ParserRuleContext):
+    __slots__ = ()
+
+
+class BodyContext(ParserRuleContext):
+    __slots__ = ()
+
+
+class WithBlockContext(ParserRuleContext):
+    __slots__ = ()
+
+
+class ImportStatementContext(ParserRuleContext):
+    __slots__ = ()
+
+
+class DottedNameContext(ParserRuleContext):
+    __slots__ = ()
+
+
+class NamespaceStatementContext(ParserRuleContext):
+    __slots__ = ()
+
+
+class UseStatementContext(ParserRuleContext):
+    __slots__ = ()
+
+
+class ExportStatementContext(ParserRuleContext):
+    __slots__ = ()
+
+
+class ExportItemContext(ParserRuleContext):
+    __slots__ = ()
+
+
+class GlobalParameterContext(ParserRuleContext):
+    __slots__ = ()
+
+
+class TypeNameContext(ParserRuleContext):
+    __slots__ = ()
+
+
+class BehaviorNameContext(ParserRuleContext):
+    __slots__ = ()
+
+
+class PhysicalTypeDeclarationContext(ParserRuleContext):
+    __slots__ = ()
+
+
+class UnitDeclarationContext(ParserRuleContext):
+    __slots__ = ()
+
+
+class SiUnitContext(ParserRuleContext):
+    __slots__ = ()
+
+
+class EnumDeclarationContext(ParserRuleContext):
+    __slots__ = ()
+
+
+class EnumMembersContext(ParserRuleContext):
+    __slots__ = ()
+
+
+class EnumMemberContext(ParserRuleContext):
+    __slots__ = ()
+
+
+class StructDeclarationContext(ParserRuleContext):
+    __slots__ = ()
+
+
+class ActorDeclarationContext(ParserRuleContext):
+    __slots__ = ()
+
+
+class ScenarioDeclarationContext(ParserRuleContext):
+    __slots__ = ()
+
+
+class ActionDeclarationContext(ParserRuleContext):
+    __slots__ = ()
+
+
+class ModifierDeclarationContext(ParserRuleContext):
+    __slots__ = ()
+
+
+class InheritanceContext(ParserRuleContext):
+    __slots__ = ()
+
+
+class ExtensionContext(ParserRuleContext):
+    __slots__ = ()
+
+
+class EventDeclarationContext(ParserRuleContext):
+    __slots__ = ()
+
+
+class ParametersContext(ParserRuleContext):
+    __slots__ = ()
+
+
+class ParameterContext(ParserRuleContext):
+    __slots__ = ()
+
+
+class EventSpecificationContext(ParserRuleContext):
+    __slots__ = ()
+
+
+class VariableDeclarationContext(ParserRuleContext):
+    __slots__ = ()
+
+
+class SampleExpressionContext(ParserRuleContext):
+    __slots__ = ()
+
+
+class MethodDeclarationContext(ParserRuleContext):
+    __slots__ = ()
+
+
+class KeepConstraintContext(ParserRuleContext):
+    __slots__ = ()
+
+
+class RemoveDefaultContext(ParserRuleContext):
+    __slots__ = ()
+
+
+class CoverageDeclarationContext(ParserRuleContext):
+    __slots__ = ()
+
+
+class NameStatementContext(ParserRuleContext):
+    __slots__ = ()
+
+
+class TypedRestContext(ParserRuleContext):
+    __slots__ = ()
+
+
+class EndingContext(ParserRuleContext):
+    __slots__ = ()
+
+
+class OnDirectiveContext(ParserRuleContext):
+    __slots__ = ()
+
+
+class DoDirectiveContext(ParserRuleContext):
+    __slots__ = ()
+
+
+class CompositionContext(ParserRuleContext):
+    __slots__ = ()
+
+
+class WaitDirectiveContext(ParserRuleContext):
+    __slots__ = ()
+
+
+class EmitDirectiveContext(ParserRuleContext):
+    __slots__ = ()
+
+
+class CallDirectiveContext(ParserRuleContext):
+    __slots__ = ()
+
+
+class UntilDirectiveContext(ParserRuleContext):
+    __slots__ = ()
+
+
+class ExpressionContext(ParserRuleContext):
+    __slots__ = ()
+
+
+class GroupContext(ParserRuleContext):
+    __slots__ = ()
+
+
+class ArgumentsContext(ParserRuleContext):
+    __slots__ = ()
+
+
 class OpenSCENARIO2(Parser):
-    atn = Network(serializedATN())
-    literalNames = [ "<INVALID>", "<INVALID>", "<INVALID>", "<INVALID>",
-                     "<INVALID>", "<INVALID>", "<INVALID>", "<INVALID>",
-                     "<INVALID>", "<INVALID>", "'import'", "'namespace'",
-                     "'use'", "'export'", "'type'", "'unit'", "'enum'",
-                     "'struct'", "'actor'", "'scenario'", "'action'", "'modifier'",
-                     "'extend'", "'global'", "'inherits'", "'of'", "'is'",
-                     "'event'", "'var'", "'def'", "'keep'", "'remove_default'",
-                     "'cover'", "'record'", "'default'", "'hard'", "'only'",
-                     "'expression'", "'undefined'", "'external'", "'sample'",
-                     "'list'", "'range'", "'do'", "'on'", "'serial'", "'parallel'",
-                     "'one_of'", "'wait'", "'emit'", "'call'", "'until'",
-                     "'with'", "'as'", "'if'", "'and'", "'or'", "'not'",
-                     "'in'", "':'", "','", "'.'", "'..'", "'='", "'@'",
-                     "'->'", "'?'", "'!'", "'::'", "'('", "')'", "'['",
-                     "']'", "'=>'", "'=='", "'!='", "'<'", "'<='", "'>'",
-                     "'>='", "'+'", "'-'", "'*'", "'/'", "'%'" ]
-    RULE_sourceFile = 0
-    RULE_block = 1
-    RULE_statement = 2
-    RULE_body = 3
-    RULE_withBlock = 4
-    RULE_importStatement = 5
-    RULE_dottedName = 6
-    RULE_namespaceStatement = 7
-    RULE_useStatement = 8
-    RULE_exportStatement = 9
-    RULE_exportItem = 10
-    RULE_globalParameter = 11
-    RULE_typeName = 12
-    RULE_behaviorName = 13
-    RULE_physicalTypeDeclaration = 14
-    RULE_unitDeclaration = 15
-    RULE_siUnit = 16
-    RULE_enumDeclaration = 17
-    RULE_enumMembers = 18
-    RULE_enumMember = 19
-    RULE_structDeclaration = 20
-    RULE_actorDeclaration = 21
-    RULE_scenarioDeclaration = 22
-    RULE_actionDeclaration = 23
-    RULE_modifierDeclaration = 24
-    RULE_inheritance = 25
-    RULE_extension = 26
-    RULE_eventDeclaration = 27
-    RULE_parameters = 28
-    RULE_parameter = 29
-    RULE_eventSpecification = 30
-    RULE_variableDeclaration = 31
-    RULE_sampleExpression = 32
-    RULE_methodDeclaration = 33
-    RULE_keepConstraint = 34
-    RULE_removeDefault = 35
-    RULE_coverageDeclaration = 36
-    RULE_nameStatement = 37
-    RULE_typedRest = 38
-    RULE_ending = 39
-    RULE_onDirective = 40
-    RULE_doDirective = 41
-    RULE_composition = 42
-    RULE_waitDirective = 43
-    RULE_emitDirective = 44
-    RULE_callDirective = 45
-    RULE_untilDirective = 46
-    RULE_expression = 47
-    RULE_group = 48
-    RULE_arguments = 49
-    EOF = -1
-    NEWLINE=1
-    INDENT=2
-    DEDENT=3
-    ID=4
-    INTEGER=5
-    FLOAT=6
-    PHYSICAL=7
-    STRING=8
-    NAMESPACE_STAR=9
-    IMPORT=10
-    NAMESPACE=11
-    USE=12
-    EXPORT=13
-    TYPE=14
-    UNIT=15
-    ENUM=16
-    STRUCT=17
-    ACTOR=18
-    SCENARIO=19
-    ACTION=20
-    MODIFIER=21
-    EXTEND=22
-    GLOBAL=23
-    INHERITS=24
-    OF=25
-    IS=26
-    EVENT=27
-    VAR=28
-    DEF=29
-    KEEP=30
-    REMOVE_DEFAULT=31
-    COVER=32
-    RECORD=33
-    DEFAULT=34
-    HARD=35
-    ONLY=36
-    EXPRESSION=37
-    UNDEFINED=38
-    EXTERNAL=39
-    SAMPLE=40
-    LIST=41
-    RANGE=42
-    DO=43
-    ON=44
-    SERIAL=45
-    PARALLEL=46
-    ONE_OF=47
-    WAIT=48
-    EMIT=49
-    CALL=50
-    UNTIL=51
-    WITH=52
-    AS=53
-    IF=54
-    AND=55
-    OR=56
-    NOT=57
-    IN=58
-    COLON=59
-    COMMA=60
-    DOT=61
-    RANGE_DOTS=62
-    ASSIGN=63
-    AT=64
-    ARROW=65
-    QUESTION=66
-    BANG=67
-    DOUBLE_COLON=68
-    LPAREN=69
-    RPAREN=70
-    LBRACKET=71
-    RBRACKET=72
-    IMPLIES=73
-    EQUAL=74
-    NOT_EQUAL=75
-    LESS=76
-    LESS_EQUAL=77
-    GREATER=78
-    GREATER_EQUAL=79
-    PLUS=80
-    MINUS=81
-    STAR=82
-    SLASH=83
-    PERCENT=84
-
-
-    class SourceFileContext(ParserRuleContext):
-        __slots__ = ()
-
-    def sourceFile(self):
+    def sourceFile(self) -> SourceFileContext:
         stream = self._input
-        localctx = OpenSCENARIO2.SourceFileContext(self._ctx, self.state)
-        self.enterRule(localctx, 0, self.RULE_sourceFile)
+        localctx = SourceFileContext(self._ctx, self.state)
+        self.enterRule(localctx, 0, RULE_sourceFile)
         try:
             self.state = 101
             self._errHandler.sync(self)
@@ -456,7 +657,7 @@ class OpenSCENARIO2(Parser):
                 self._errHandler.sync(self)
                 _la = stream.types[stream.index]
             self.state = 109
-            self.match(OpenSCENARIO2.EOF)
+            self.match(EOF)
         except RecognitionException as re:
             self.recover(localctx, re)
         finally:
@@ -464,16 +665,13 @@ class OpenSCENARIO2(Parser):
         return localctx
 
 
-    class BlockContext(ParserRuleContext):
-        __slots__ = ()
-
-    def block(self):
+    def block(self) -> BlockContext:
         stream = self._input
-        localctx = OpenSCENARIO2.BlockContext(self._ctx, self.state)
-        self.enterRule(localctx, 2, self.RULE_block)
+        localctx = BlockContext(self._ctx, self.state)
+        self.enterRule(localctx, 2, RULE_block)
         try:
             self.state = 111
-            self.match(OpenSCENARIO2.INDENT)
+            self.match(INDENT)
             self.state = 115
             self._errHandler.sync(self)
             _la = stream.types[stream.index]
@@ -484,7 +682,7 @@ class OpenSCENARIO2(Parser):
                 self._errHandler.sync(self)
                 _la = stream.types[stream.index]
             self.state = 118
-            self.match(OpenSCENARIO2.DEDENT)
+            self.match(DEDENT)
         except RecognitionException as re:
             self.recover(localctx, re)
         finally:
@@ -492,13 +690,10 @@ class OpenSCENARIO2(Parser):
         return localctx
 
 
-    class StatementContext(ParserRuleContext):
-        __slots__ = ()
-
-    def statement(self):
+    def statement(self) -> StatementContext:
         stream = self._input
-        localctx = OpenSCENARIO2.StatementContext(self._ctx, self.state)
-        self.enterRule(localctx, 4, self.RULE_statement)
+        localctx = StatementContext(self._ctx, self.state)
+        self.enterRule(localctx, 4, RULE_statement)
         try:
             self.state = 148
             token = stream.types[stream.index]
@@ -595,21 +790,18 @@ class OpenSCENARIO2(Parser):
         return localctx
 
 
-    class BodyContext(ParserRuleContext):
-        __slots__ = ()
-
-    def body(self):
+    def body(self) -> BodyContext:
         stream = self._input
-        localctx = OpenSCENARIO2.BodyContext(self._ctx, self.state)
-        self.enterRule(localctx, 6, self.RULE_body)
+        localctx = BodyContext(self._ctx, self.state)
+        self.enterRule(localctx, 6, RULE_body)
         try:
             self.state = 151
             _la = stream.types[stream.index]
             if _la==59:
                 self.state = 150
-                self.match(OpenSCENARIO2.COLON)
+                self.match(COLON)
             self.state = 153
-            self.match(OpenSCENARIO2.NEWLINE)
+            self.match(NEWLINE)
             self.state = 155
             _la = stream.types[stream.index]
             if _la==2:
@@ -622,26 +814,23 @@ class OpenSCENARIO2(Parser):
         return localctx
 
 
-    class WithBlockContext(ParserRuleContext):
-        __slots__ = ()
-
-    def withBlock(self):
+    def withBlock(self) -> WithBlockContext:
         stream = self._input
-        localctx = OpenSCENARIO2.WithBlockContext(self._ctx, self.state)
-        self.enterRule(localctx, 8, self.RULE_withBlock)
+        localctx = WithBlockContext(self._ctx, self.state)
+        self.enterRule(localctx, 8, RULE_withBlock)
         try:
             self.state = 157
-            self.match(OpenSCENARIO2.WITH)
+            self.match(WITH)
             self.state = 159
             _la = stream.types[stream.index]
             if _la==59:
                 self.state = 158
-                self.match(OpenSCENARIO2.COLON)
+                self.match(COLON)
             self.state = 166
             token = stream.types[stream.index]
             if token in [1]:
                 self.state = 161
-                self.match(OpenSCENARIO2.NEWLINE)
+                self.match(NEWLINE)
                 self.state = 163
                 _la = stream.types[stream.index]
                 if _la==2:
@@ -659,28 +848,25 @@ class OpenSCENARIO2(Parser):
         return localctx
 
 
-    class ImportStatementContext(ParserRuleContext):
-        __slots__ = ()
-
-    def importStatement(self):
+    def importStatement(self) -> ImportStatementContext:
         stream = self._input
-        localctx = OpenSCENARIO2.ImportStatementContext(self._ctx, self.state)
-        self.enterRule(localctx, 10, self.RULE_importStatement)
+        localctx = ImportStatementContext(self._ctx, self.state)
+        self.enterRule(localctx, 10, RULE_importStatement)
         try:
             self.state = 168
-            self.match(OpenSCENARIO2.IMPORT)
+            self.match(IMPORT)
             self.state = 171
             token = stream.types[stream.index]
             if token in [8]:
                 self.state = 169
-                self.match(OpenSCENARIO2.STRING)
+                self.match(STRING)
             elif token in [4]:
                 self.state = 170
                 self.dottedName()
             else:
                 raise NoViableAltException(self)
             self.state = 173
-            self.match(OpenSCENARIO2.NEWLINE)
+            self.match(NEWLINE)
             self.state = 175
             _la = stream.types[stream.index]
             if _la==2:
@@ -693,23 +879,20 @@ class OpenSCENARIO2(Parser):
         return localctx
 
 
-    class DottedNameContext(ParserRuleContext):
-        __slots__ = ()
-
-    def dottedName(self):
+    def dottedName(self) -> DottedNameContext:
         stream = self._input
-        localctx = OpenSCENARIO2.DottedNameContext(self._ctx, self.state)
-        self.enterRule(localctx, 12, self.RULE_dottedName)
+        localctx = DottedNameContext(self._ctx, self.state)
+        self.enterRule(localctx, 12, RULE_dottedName)
         try:
             self.state = 177
-            self.match(OpenSCENARIO2.ID)
+            self.match(ID)
             self.state = 182
             _la = stream.types[stream.index]
             while _la==61:
                 self.state = 178
-                self.match(OpenSCENARIO2.DOT)
+                self.match(DOT)
                 self.state = 179
-                self.match(OpenSCENARIO2.ID)
+                self.match(ID)
                 self.state = 184
                 _la = stream.types[stream.index]
         except RecognitionException as re:
@@ -719,36 +902,33 @@ class OpenSCENARIO2(Parser):
         return localctx
 
 
-    class NamespaceStatementContext(ParserRuleContext):
-        __slots__ = ()
-
-    def namespaceStatement(self):
+    def namespaceStatement(self) -> NamespaceStatementContext:
         stream = self._input
-        localctx = OpenSCENARIO2.NamespaceStatementContext(self._ctx, self.state)
-        self.enterRule(localctx, 14, self.RULE_namespaceStatement)
+        localctx = NamespaceStatementContext(self._ctx, self.state)
+        self.enterRule(localctx, 14, RULE_namespaceStatement)
         try:
             self.state = 185
-            self.match(OpenSCENARIO2.NAMESPACE)
+            self.match(NAMESPACE)
             self.state = 186
-            self.match(OpenSCENARIO2.ID)
+            self.match(ID)
             self.state = 196
             _la = stream.types[stream.index]
             if _la==12:
                 self.state = 187
-                self.match(OpenSCENARIO2.USE)
+                self.match(USE)
                 self.state = 188
                 self.dottedName()
                 self.state = 193
                 _la = stream.types[stream.index]
                 while _la==60:
                     self.state = 189
-                    self.match(OpenSCENARIO2.COMMA)
+                    self.match(COMMA)
                     self.state = 190
                     self.dottedName()
                     self.state = 195
                     _la = stream.types[stream.index]
             self.state = 198
-            self.match(OpenSCENARIO2.NEWLINE)
+            self.match(NEWLINE)
             self.state = 200
             _la = stream.types[stream.index]
             if _la==2:
@@ -761,29 +941,26 @@ class OpenSCENARIO2(Parser):
         return localctx
 
 
-    class UseStatementContext(ParserRuleContext):
-        __slots__ = ()
-
-    def useStatement(self):
+    def useStatement(self) -> UseStatementContext:
         stream = self._input
-        localctx = OpenSCENARIO2.UseStatementContext(self._ctx, self.state)
-        self.enterRule(localctx, 16, self.RULE_useStatement)
+        localctx = UseStatementContext(self._ctx, self.state)
+        self.enterRule(localctx, 16, RULE_useStatement)
         try:
             self.state = 202
-            self.match(OpenSCENARIO2.USE)
+            self.match(USE)
             self.state = 203
             self.dottedName()
             self.state = 208
             _la = stream.types[stream.index]
             while _la==60:
                 self.state = 204
-                self.match(OpenSCENARIO2.COMMA)
+                self.match(COMMA)
                 self.state = 205
                 self.dottedName()
                 self.state = 210
                 _la = stream.types[stream.index]
             self.state = 211
-            self.match(OpenSCENARIO2.NEWLINE)
+            self.match(NEWLINE)
             self.state = 213
             _la = stream.types[stream.index]
             if _la==2:
@@ -796,29 +973,26 @@ class OpenSCENARIO2(Parser):
         return localctx
 
 
-    class ExportStatementContext(ParserRuleContext):
-        __slots__ = ()
-
-    def exportStatement(self):
+    def exportStatement(self) -> ExportStatementContext:
         stream = self._input
-        localctx = OpenSCENARIO2.ExportStatementContext(self._ctx, self.state)
-        self.enterRule(localctx, 18, self.RULE_exportStatement)
+        localctx = ExportStatementContext(self._ctx, self.state)
+        self.enterRule(localctx, 18, RULE_exportStatement)
         try:
             self.state = 215
-            self.match(OpenSCENARIO2.EXPORT)
+            self.match(EXPORT)
             self.state = 216
             self.exportItem()
             self.state = 221
             _la = stream.types[stream.index]
             while _la==60:
                 self.state = 217
-                self.match(OpenSCENARIO2.COMMA)
+                self.match(COMMA)
                 self.state = 218
                 self.exportItem()
                 self.state = 223
                 _la = stream.types[stream.index]
             self.state = 224
-            self.match(OpenSCENARIO2.NEWLINE)
+            self.match(NEWLINE)
             self.state = 226
             _la = stream.types[stream.index]
             if _la==2:
@@ -831,13 +1005,10 @@ class OpenSCENARIO2(Parser):
         return localctx
 
 
-    class ExportItemContext(ParserRuleContext):
-        __slots__ = ()
-
-    def exportItem(self):
+    def exportItem(self) -> ExportItemContext:
         stream = self._input
-        localctx = OpenSCENARIO2.ExportItemContext(self._ctx, self.state)
-        self.enterRule(localctx, 20, self.RULE_exportItem)
+        localctx = ExportItemContext(self._ctx, self.state)
+        self.enterRule(localctx, 20, RULE_exportItem)
         try:
             self.state = 228
             _la = stream.types[stream.index]
@@ -852,15 +1023,12 @@ class OpenSCENARIO2(Parser):
         return localctx
 
 
-    class GlobalParameterContext(ParserRuleContext):
-        __slots__ = ()
-
-    def globalParameter(self):
-        localctx = OpenSCENARIO2.GlobalParameterContext(self._ctx, self.state)
-        self.enterRule(localctx, 22, self.RULE_globalParameter)
+    def globalParameter(self) -> GlobalParameterContext:
+        localctx = GlobalParameterContext(self._ctx, self.state)
+        self.enterRule(localctx, 22, RULE_globalParameter)
         try:
             self.state = 230
-            self.match(OpenSCENARIO2.GLOBAL)
+            self.match(GLOBAL)
             self.state = 231
             self.nameStatement()
         except RecognitionException as re:
@@ -870,13 +1038,10 @@ class OpenSCENARIO2(Parser):
         return localctx
 
 
-    class TypeNameContext(ParserRuleContext):
-        __slots__ = ()
-
-    def typeName(self):
+    def typeName(self) -> TypeNameContext:
         stream = self._input
-        localctx = OpenSCENARIO2.TypeNameContext(self._ctx, self.state)
-        self.enterRule(localctx, 24, self.RULE_typeName)
+        localctx = TypeNameContext(self._ctx, self.state)
+        self.enterRule(localctx, 24, RULE_typeName)
         try:
             self.state = 237
             _la = stream.types[stream.index]
@@ -888,7 +1053,7 @@ class OpenSCENARIO2(Parser):
                 else:
                     self.consume()
                 self.state = 234
-                self.match(OpenSCENARIO2.OF)
+                self.match(OF)
                 self.state = 239
                 _la = stream.types[stream.index]
             self.state = 240
@@ -900,23 +1065,20 @@ class OpenSCENARIO2(Parser):
         return localctx
 
 
-    class BehaviorNameContext(ParserRuleContext):
-        __slots__ = ()
-
-    def behaviorName(self):
+    def behaviorName(self) -> BehaviorNameContext:
         stream = self._input
-        localctx = OpenSCENARIO2.BehaviorNameContext(self._ctx, self.state)
-        self.enterRule(localctx, 26, self.RULE_behaviorName)
+        localctx = BehaviorNameContext(self._ctx, self.state)
+        self.enterRule(localctx, 26, RULE_behaviorName)
         try:
             self.state = 242
-            self.match(OpenSCENARIO2.ID)
+            self.match(ID)
             self.state = 245
             _la = stream.types[stream.index]
             if _la==61:
                 self.state = 243
-                self.match(OpenSCENARIO2.DOT)
+                self.match(DOT)
                 self.state = 244
-                self.match(OpenSCENARIO2.ID)
+                self.match(ID)
         except RecognitionException as re:
             self.recover(localctx, re)
         finally:
@@ -924,24 +1086,21 @@ class OpenSCENARIO2(Parser):
         return localctx
 
 
-    class PhysicalTypeDeclarationContext(ParserRuleContext):
-        __slots__ = ()
-
-    def physicalTypeDeclaration(self):
+    def physicalTypeDeclaration(self) -> PhysicalTypeDeclarationContext:
         stream = self._input
-        localctx = OpenSCENARIO2.PhysicalTypeDeclarationContext(self._ctx, self.state)
-        self.enterRule(localctx, 28, self.RULE_physicalTypeDeclaration)
+        localctx = PhysicalTypeDeclarationContext(self._ctx, self.state)
+        self.enterRule(localctx, 28, RULE_physicalTypeDeclaration)
         try:
             self.state = 247
-            self.match(OpenSCENARIO2.TYPE)
+            self.match(TYPE)
             self.state = 248
-            self.match(OpenSCENARIO2.ID)
+            self.match(ID)
             self.state = 249
-            self.match(OpenSCENARIO2.IS)
+            self.match(IS)
             self.state = 250
             self.siUnit()
             self.state = 251
-            self.match(OpenSCENARIO2.NEWLINE)
+            self.match(NEWLINE)
             self.state = 253
             _la = stream.types[stream.index]
             if _la==2:
@@ -954,28 +1113,25 @@ class OpenSCENARIO2(Parser):
         return localctx
 
 
-    class UnitDeclarationContext(ParserRuleContext):
-        __slots__ = ()
-
-    def unitDeclaration(self):
+    def unitDeclaration(self) -> UnitDeclarationContext:
         stream = self._input
-        localctx = OpenSCENARIO2.UnitDeclarationContext(self._ctx, self.state)
-        self.enterRule(localctx, 30, self.RULE_unitDeclaration)
+        localctx = UnitDeclarationContext(self._ctx, self.state)
+        self.enterRule(localctx, 30, RULE_unitDeclaration)
         try:
             self.state = 255
-            self.match(OpenSCENARIO2.UNIT)
+            self.match(UNIT)
             self.state = 256
-            self.match(OpenSCENARIO2.ID)
+            self.match(ID)
             self.state = 257
-            self.match(OpenSCENARIO2.OF)
+            self.match(OF)
             self.state = 258
-            self.match(OpenSCENARIO2.ID)
+            self.match(ID)
             self.state = 259
-            self.match(OpenSCENARIO2.IS)
+            self.match(IS)
             self.state = 260
             self.siUnit()
             self.state = 261
-            self.match(OpenSCENARIO2.NEWLINE)
+            self.match(NEWLINE)
             self.state = 263
             _la = stream.types[stream.index]
             if _la==2:
@@ -988,25 +1144,22 @@ class OpenSCENARIO2(Parser):
         return localctx
 
 
-    class SiUnitContext(ParserRuleContext):
-        __slots__ = ()
-
-    def siUnit(self):
+    def siUnit(self) -> SiUnitContext:
         stream = self._input
-        localctx = OpenSCENARIO2.SiUnitContext(self._ctx, self.state)
-        self.enterRule(localctx, 32, self.RULE_siUnit)
+        localctx = SiUnitContext(self._ctx, self.state)
+        self.enterRule(localctx, 32, RULE_siUnit)
         try:
             self.state = 265
-            self.match(OpenSCENARIO2.ID)
+            self.match(ID)
             self.state = 266
-            self.match(OpenSCENARIO2.LPAREN)
+            self.match(LPAREN)
             self.state = 268
             _la = stream.types[stream.index]
             if (((_la) & ~0x3f) == 0 and ((1 << _la) & 144115188075856368) != 0) or ((((_la - 69)) & ~0x3f) == 0 and ((1 << (_la - 69)) & 6149) != 0):
                 self.state = 267
                 self.arguments()
             self.state = 270
-            self.match(OpenSCENARIO2.RPAREN)
+            self.match(RPAREN)
         except RecognitionException as re:
             self.recover(localctx, re)
         finally:
@@ -1014,24 +1167,21 @@ class OpenSCENARIO2(Parser):
         return localctx
 
 
-    class EnumDeclarationContext(ParserRuleContext):
-        __slots__ = ()
-
-    def enumDeclaration(self):
+    def enumDeclaration(self) -> EnumDeclarationContext:
         stream = self._input
-        localctx = OpenSCENARIO2.EnumDeclarationContext(self._ctx, self.state)
-        self.enterRule(localctx, 34, self.RULE_enumDeclaration)
+        localctx = EnumDeclarationContext(self._ctx, self.state)
+        self.enterRule(localctx, 34, RULE_enumDeclaration)
         try:
             self.state = 272
-            self.match(OpenSCENARIO2.ENUM)
+            self.match(ENUM)
             self.state = 273
-            self.match(OpenSCENARIO2.ID)
+            self.match(ID)
             self.state = 274
-            self.match(OpenSCENARIO2.COLON)
+            self.match(COLON)
             self.state = 275
             self.enumMembers()
             self.state = 276
-            self.match(OpenSCENARIO2.NEWLINE)
+            self.match(NEWLINE)
             self.state = 278
             _la = stream.types[stream.index]
             if _la==2:
@@ -1044,29 +1194,26 @@ class OpenSCENARIO2(Parser):
         return localctx
 
 
-    class EnumMembersContext(ParserRuleContext):
-        __slots__ = ()
-
-    def enumMembers(self):
+    def enumMembers(self) -> EnumMembersContext:
         stream = self._input
-        localctx = OpenSCENARIO2.EnumMembersContext(self._ctx, self.state)
-        self.enterRule(localctx, 36, self.RULE_enumMembers)
+        localctx = EnumMembersContext(self._ctx, self.state)
+        self.enterRule(localctx, 36, RULE_enumMembers)
         try:
             self.state = 280
-            self.match(OpenSCENARIO2.LBRACKET)
+            self.match(LBRACKET)
             self.state = 281
             self.enumMember()
             self.state = 286
             _la = stream.types[stream.index]
             while _la==60:
                 self.state = 282
-                self.match(OpenSCENARIO2.COMMA)
+                self.match(COMMA)
                 self.state = 283
                 self.enumMember()
                 self.state = 288
                 _la = stream.types[stream.index]
             self.state = 289
-            self.match(OpenSCENARIO2.RBRACKET)
+            self.match(RBRACKET)
         except RecognitionException as re:
             self.recover(localctx, re)
         finally:
@@ -1074,21 +1221,18 @@ class OpenSCENARIO2(Parser):
         return localctx
 
 
-    class EnumMemberContext(ParserRuleContext):
-        __slots__ = ()
-
-    def enumMember(self):
+    def enumMember(self) -> EnumMemberContext:
         stream = self._input
-        localctx = OpenSCENARIO2.EnumMemberContext(self._ctx, self.state)
-        self.enterRule(localctx, 38, self.RULE_enumMember)
+        localctx = EnumMemberContext(self._ctx, self.state)
+        self.enterRule(localctx, 38, RULE_enumMember)
         try:
             self.state = 291
-            self.match(OpenSCENARIO2.ID)
+            self.match(ID)
             self.state = 294
             _la = stream.types[stream.index]
             if _la==63:
                 self.state = 292
-                self.match(OpenSCENARIO2.ASSIGN)
+                self.match(ASSIGN)
                 self.state = 293
                 self.expression()
         except RecognitionException as re:
@@ -1098,16 +1242,13 @@ class OpenSCENARIO2(Parser):
         return localctx
 
 
-    class StructDeclarationContext(ParserRuleContext):
-        __slots__ = ()
-
-    def structDeclaration(self):
+    def structDeclaration(self) -> StructDeclarationContext:
         stream = self._input
-        localctx = OpenSCENARIO2.StructDeclarationContext(self._ctx, self.state)
-        self.enterRule(localctx, 40, self.RULE_structDeclaration)
+        localctx = StructDeclarationContext(self._ctx, self.state)
+        self.enterRule(localctx, 40, RULE_structDeclaration)
         try:
             self.state = 296
-            self.match(OpenSCENARIO2.STRUCT)
+            self.match(STRUCT)
             self.state = 297
             self.behaviorName()
             self.state = 299
@@ -1124,16 +1265,13 @@ class OpenSCENARIO2(Parser):
         return localctx
 
 
-    class ActorDeclarationContext(ParserRuleContext):
-        __slots__ = ()
-
-    def actorDeclaration(self):
+    def actorDeclaration(self) -> ActorDeclarationContext:
         stream = self._input
-        localctx = OpenSCENARIO2.ActorDeclarationContext(self._ctx, self.state)
-        self.enterRule(localctx, 42, self.RULE_actorDeclaration)
+        localctx = ActorDeclarationContext(self._ctx, self.state)
+        self.enterRule(localctx, 42, RULE_actorDeclaration)
         try:
             self.state = 303
-            self.match(OpenSCENARIO2.ACTOR)
+            self.match(ACTOR)
             self.state = 304
             self.behaviorName()
             self.state = 306
@@ -1150,16 +1288,13 @@ class OpenSCENARIO2(Parser):
         return localctx
 
 
-    class ScenarioDeclarationContext(ParserRuleContext):
-        __slots__ = ()
-
-    def scenarioDeclaration(self):
+    def scenarioDeclaration(self) -> ScenarioDeclarationContext:
         stream = self._input
-        localctx = OpenSCENARIO2.ScenarioDeclarationContext(self._ctx, self.state)
-        self.enterRule(localctx, 44, self.RULE_scenarioDeclaration)
+        localctx = ScenarioDeclarationContext(self._ctx, self.state)
+        self.enterRule(localctx, 44, RULE_scenarioDeclaration)
         try:
             self.state = 310
-            self.match(OpenSCENARIO2.SCENARIO)
+            self.match(SCENARIO)
             self.state = 311
             self.behaviorName()
             self.state = 313
@@ -1176,16 +1311,13 @@ class OpenSCENARIO2(Parser):
         return localctx
 
 
-    class ActionDeclarationContext(ParserRuleContext):
-        __slots__ = ()
-
-    def actionDeclaration(self):
+    def actionDeclaration(self) -> ActionDeclarationContext:
         stream = self._input
-        localctx = OpenSCENARIO2.ActionDeclarationContext(self._ctx, self.state)
-        self.enterRule(localctx, 46, self.RULE_actionDeclaration)
+        localctx = ActionDeclarationContext(self._ctx, self.state)
+        self.enterRule(localctx, 46, RULE_actionDeclaration)
         try:
             self.state = 317
-            self.match(OpenSCENARIO2.ACTION)
+            self.match(ACTION)
             self.state = 318
             self.behaviorName()
             self.state = 320
@@ -1202,23 +1334,20 @@ class OpenSCENARIO2(Parser):
         return localctx
 
 
-    class ModifierDeclarationContext(ParserRuleContext):
-        __slots__ = ()
-
-    def modifierDeclaration(self):
+    def modifierDeclaration(self) -> ModifierDeclarationContext:
         stream = self._input
-        localctx = OpenSCENARIO2.ModifierDeclarationContext(self._ctx, self.state)
-        self.enterRule(localctx, 48, self.RULE_modifierDeclaration)
+        localctx = ModifierDeclarationContext(self._ctx, self.state)
+        self.enterRule(localctx, 48, RULE_modifierDeclaration)
         try:
             self.state = 324
-            self.match(OpenSCENARIO2.MODIFIER)
+            self.match(MODIFIER)
             self.state = 325
             self.behaviorName()
             self.state = 328
             _la = stream.types[stream.index]
             if _la==25:
                 self.state = 326
-                self.match(OpenSCENARIO2.OF)
+                self.match(OF)
                 self.state = 327
                 self.behaviorName()
             self.state = 330
@@ -1230,27 +1359,24 @@ class OpenSCENARIO2(Parser):
         return localctx
 
 
-    class InheritanceContext(ParserRuleContext):
-        __slots__ = ()
-
-    def inheritance(self):
+    def inheritance(self) -> InheritanceContext:
         stream = self._input
-        localctx = OpenSCENARIO2.InheritanceContext(self._ctx, self.state)
-        self.enterRule(localctx, 50, self.RULE_inheritance)
+        localctx = InheritanceContext(self._ctx, self.state)
+        self.enterRule(localctx, 50, RULE_inheritance)
         try:
             self.state = 332
-            self.match(OpenSCENARIO2.INHERITS)
+            self.match(INHERITS)
             self.state = 333
             self.behaviorName()
             self.state = 338
             _la = stream.types[stream.index]
             if _la==69:
                 self.state = 334
-                self.match(OpenSCENARIO2.LPAREN)
+                self.match(LPAREN)
                 self.state = 335
                 self.expression()
                 self.state = 336
-                self.match(OpenSCENARIO2.RPAREN)
+                self.match(RPAREN)
         except RecognitionException as re:
             self.recover(localctx, re)
         finally:
@@ -1258,30 +1384,27 @@ class OpenSCENARIO2(Parser):
         return localctx
 
 
-    class ExtensionContext(ParserRuleContext):
-        __slots__ = ()
-
-    def extension(self):
+    def extension(self) -> ExtensionContext:
         stream = self._input
-        localctx = OpenSCENARIO2.ExtensionContext(self._ctx, self.state)
-        self.enterRule(localctx, 52, self.RULE_extension)
+        localctx = ExtensionContext(self._ctx, self.state)
+        self.enterRule(localctx, 52, RULE_extension)
         try:
             self.state = 340
-            self.match(OpenSCENARIO2.EXTEND)
+            self.match(EXTEND)
             self.state = 341
             self.behaviorName()
             self.state = 343
             _la = stream.types[stream.index]
             if _la==59:
                 self.state = 342
-                self.match(OpenSCENARIO2.COLON)
+                self.match(COLON)
             self.state = 346
             _la = stream.types[stream.index]
             if _la==71:
                 self.state = 345
                 self.enumMembers()
             self.state = 348
-            self.match(OpenSCENARIO2.NEWLINE)
+            self.match(NEWLINE)
             self.state = 350
             _la = stream.types[stream.index]
             if _la==2:
@@ -1294,39 +1417,36 @@ class OpenSCENARIO2(Parser):
         return localctx
 
 
-    class EventDeclarationContext(ParserRuleContext):
-        __slots__ = ()
-
-    def eventDeclaration(self):
+    def eventDeclaration(self) -> EventDeclarationContext:
         stream = self._input
-        localctx = OpenSCENARIO2.EventDeclarationContext(self._ctx, self.state)
-        self.enterRule(localctx, 54, self.RULE_eventDeclaration)
+        localctx = EventDeclarationContext(self._ctx, self.state)
+        self.enterRule(localctx, 54, RULE_eventDeclaration)
         try:
             self.state = 352
-            self.match(OpenSCENARIO2.EVENT)
+            self.match(EVENT)
             self.state = 353
-            self.match(OpenSCENARIO2.ID)
+            self.match(ID)
             self.state = 359
             _la = stream.types[stream.index]
             if _la==69:
                 self.state = 354
-                self.match(OpenSCENARIO2.LPAREN)
+                self.match(LPAREN)
                 self.state = 356
                 _la = stream.types[stream.index]
                 if _la==4:
                     self.state = 355
                     self.parameters()
                 self.state = 358
-                self.match(OpenSCENARIO2.RPAREN)
+                self.match(RPAREN)
             self.state = 363
             _la = stream.types[stream.index]
             if _la==26:
                 self.state = 361
-                self.match(OpenSCENARIO2.IS)
+                self.match(IS)
                 self.state = 362
                 self.eventSpecification()
             self.state = 365
-            self.match(OpenSCENARIO2.NEWLINE)
+            self.match(NEWLINE)
             self.state = 367
             _la = stream.types[stream.index]
             if _la==2:
@@ -1339,13 +1459,10 @@ class OpenSCENARIO2(Parser):
         return localctx
 
 
-    class ParametersContext(ParserRuleContext):
-        __slots__ = ()
-
-    def parameters(self):
+    def parameters(self) -> ParametersContext:
         stream = self._input
-        localctx = OpenSCENARIO2.ParametersContext(self._ctx, self.state)
-        self.enterRule(localctx, 56, self.RULE_parameters)
+        localctx = ParametersContext(self._ctx, self.state)
+        self.enterRule(localctx, 56, RULE_parameters)
         try:
             self.state = 369
             self.parameter()
@@ -1353,7 +1470,7 @@ class OpenSCENARIO2(Parser):
             _la = stream.types[stream.index]
             while _la==60:
                 self.state = 370
-                self.match(OpenSCENARIO2.COMMA)
+                self.match(COMMA)
                 self.state = 371
                 self.parameter()
                 self.state = 376
@@ -1365,25 +1482,22 @@ class OpenSCENARIO2(Parser):
         return localctx
 
 
-    class ParameterContext(ParserRuleContext):
-        __slots__ = ()
-
-    def parameter(self):
+    def parameter(self) -> ParameterContext:
         stream = self._input
-        localctx = OpenSCENARIO2.ParameterContext(self._ctx, self.state)
-        self.enterRule(localctx, 58, self.RULE_parameter)
+        localctx = ParameterContext(self._ctx, self.state)
+        self.enterRule(localctx, 58, RULE_parameter)
         try:
             self.state = 377
-            self.match(OpenSCENARIO2.ID)
+            self.match(ID)
             self.state = 378
-            self.match(OpenSCENARIO2.COLON)
+            self.match(COLON)
             self.state = 379
             self.typeName()
             self.state = 382
             _la = stream.types[stream.index]
             if _la==63:
                 self.state = 380
-                self.match(OpenSCENARIO2.ASSIGN)
+                self.match(ASSIGN)
                 self.state = 381
                 self.expression()
         except RecognitionException as re:
@@ -1393,33 +1507,30 @@ class OpenSCENARIO2(Parser):
         return localctx
 
 
-    class EventSpecificationContext(ParserRuleContext):
-        __slots__ = ()
-
-    def eventSpecification(self):
+    def eventSpecification(self) -> EventSpecificationContext:
         stream = self._input
-        localctx = OpenSCENARIO2.EventSpecificationContext(self._ctx, self.state)
-        self.enterRule(localctx, 60, self.RULE_eventSpecification)
+        localctx = EventSpecificationContext(self._ctx, self.state)
+        self.enterRule(localctx, 60, RULE_eventSpecification)
         try:
             self.state = 385
             _la = stream.types[stream.index]
             if _la==64:
                 self.state = 384
-                self.match(OpenSCENARIO2.AT)
+                self.match(AT)
             self.state = 387
             self.expression()
             self.state = 390
             _la = stream.types[stream.index]
             if _la==53:
                 self.state = 388
-                self.match(OpenSCENARIO2.AS)
+                self.match(AS)
                 self.state = 389
-                self.match(OpenSCENARIO2.ID)
+                self.match(ID)
             self.state = 394
             _la = stream.types[stream.index]
             if _la==54:
                 self.state = 392
-                self.match(OpenSCENARIO2.IF)
+                self.match(IF)
                 self.state = 393
                 self.expression()
         except RecognitionException as re:
@@ -1429,36 +1540,33 @@ class OpenSCENARIO2(Parser):
         return localctx
 
 
-    class VariableDeclarationContext(ParserRuleContext):
-        __slots__ = ()
-
-    def variableDeclaration(self):
+    def variableDeclaration(self) -> VariableDeclarationContext:
         stream = self._input
-        localctx = OpenSCENARIO2.VariableDeclarationContext(self._ctx, self.state)
-        self.enterRule(localctx, 62, self.RULE_variableDeclaration)
+        localctx = VariableDeclarationContext(self._ctx, self.state)
+        self.enterRule(localctx, 62, RULE_variableDeclaration)
         try:
             self.state = 396
-            self.match(OpenSCENARIO2.VAR)
+            self.match(VAR)
             self.state = 397
-            self.match(OpenSCENARIO2.ID)
+            self.match(ID)
             self.state = 402
             _la = stream.types[stream.index]
             while _la==60:
                 self.state = 398
-                self.match(OpenSCENARIO2.COMMA)
+                self.match(COMMA)
                 self.state = 399
-                self.match(OpenSCENARIO2.ID)
+                self.match(ID)
                 self.state = 404
                 _la = stream.types[stream.index]
             self.state = 405
-            self.match(OpenSCENARIO2.COLON)
+            self.match(COLON)
             self.state = 406
             self.typeName()
             self.state = 412
             _la = stream.types[stream.index]
             if _la==63:
                 self.state = 407
-                self.match(OpenSCENARIO2.ASSIGN)
+                self.match(ASSIGN)
                 self.state = 410
                 token = stream.types[stream.index]
                 if token in [40]:
@@ -1478,33 +1586,30 @@ class OpenSCENARIO2(Parser):
         return localctx
 
 
-    class SampleExpressionContext(ParserRuleContext):
-        __slots__ = ()
-
-    def sampleExpression(self):
+    def sampleExpression(self) -> SampleExpressionContext:
         stream = self._input
-        localctx = OpenSCENARIO2.SampleExpressionContext(self._ctx, self.state)
-        self.enterRule(localctx, 64, self.RULE_sampleExpression)
+        localctx = SampleExpressionContext(self._ctx, self.state)
+        self.enterRule(localctx, 64, RULE_sampleExpression)
         try:
             self.state = 416
-            self.match(OpenSCENARIO2.SAMPLE)
+            self.match(SAMPLE)
             self.state = 417
-            self.match(OpenSCENARIO2.LPAREN)
+            self.match(LPAREN)
             self.state = 418
             self.expression()
             self.state = 419
-            self.match(OpenSCENARIO2.COMMA)
+            self.match(COMMA)
             self.state = 420
             self.eventSpecification()
             self.state = 423
             _la = stream.types[stream.index]
             if _la==60:
                 self.state = 421
-                self.match(OpenSCENARIO2.COMMA)
+                self.match(COMMA)
                 self.state = 422
                 self.expression()
             self.state = 425
-            self.match(OpenSCENARIO2.RPAREN)
+            self.match(RPAREN)
         except RecognitionException as re:
             self.recover(localctx, re)
         finally:
@@ -1512,69 +1617,66 @@ class OpenSCENARIO2(Parser):
         return localctx
 
 
-    class MethodDeclarationContext(ParserRuleContext):
-        __slots__ = ()
-
-    def methodDeclaration(self):
+    def methodDeclaration(self) -> MethodDeclarationContext:
         stream = self._input
-        localctx = OpenSCENARIO2.MethodDeclarationContext(self._ctx, self.state)
-        self.enterRule(localctx, 66, self.RULE_methodDeclaration)
+        localctx = MethodDeclarationContext(self._ctx, self.state)
+        self.enterRule(localctx, 66, RULE_methodDeclaration)
         try:
             self.state = 427
-            self.match(OpenSCENARIO2.DEF)
+            self.match(DEF)
             self.state = 428
-            self.match(OpenSCENARIO2.ID)
+            self.match(ID)
             self.state = 429
-            self.match(OpenSCENARIO2.LPAREN)
+            self.match(LPAREN)
             self.state = 431
             _la = stream.types[stream.index]
             if _la==4:
                 self.state = 430
                 self.parameters()
             self.state = 433
-            self.match(OpenSCENARIO2.RPAREN)
+            self.match(RPAREN)
             self.state = 436
             _la = stream.types[stream.index]
             if _la==65:
                 self.state = 434
-                self.match(OpenSCENARIO2.ARROW)
+                self.match(ARROW)
                 self.state = 435
                 self.typeName()
             self.state = 438
-            self.match(OpenSCENARIO2.IS)
+            self.match(IS)
             self.state = 440
             _la = stream.types[stream.index]
             if _la==36:
                 self.state = 439
-                self.match(OpenSCENARIO2.ONLY)
+                self.match(ONLY)
             self.state = 453
             token = stream.types[stream.index]
             if token in [37]:
                 self.state = 442
-                self.match(OpenSCENARIO2.EXPRESSION)
+                self.match(EXPRESSION)
                 self.state = 443
                 self.expression()
             elif token in [38]:
                 self.state = 444
-                self.match(OpenSCENARIO2.UNDEFINED)
+                self.match(UNDEFINED)
             elif token in [39]:
                 self.state = 445
-                self.match(OpenSCENARIO2.EXTERNAL)
+                self.match(EXTERNAL)
                 self.state = 446
                 self.dottedName()
                 self.state = 447
-                self.match(OpenSCENARIO2.LPAREN)
+                self.match(LPAREN)
                 self.state = 449
                 _la = stream.types[stream.index]
                 if (((_la) & ~0x3f) == 0 and ((1 << _la) & 144115188075856368) != 0) or ((((_la - 69)) & ~0x3f) == 0 and ((1 << (_la - 69)) & 6149) != 0):
                     self.state = 448
                     self.arguments()
                 self.state = 451
-                self.match(OpenSCENARIO2.RPAREN)
+                self.match(RPAREN)
             else:
                 raise NoViableAltException(self)
             self.state = 455
-            self.match(OpenSCENARIO2.NEWLINE)
+            self.match(NEWLINE)
             self.state = 457
             _la = stream.types[stream.index]
             if _la==2:
@@ -1587,18 +1689,15 @@ class OpenSCENARIO2(Parser):
         return localctx
 
 
-    class KeepConstraintContext(ParserRuleContext):
-        __slots__ = ()
-
-    def keepConstraint(self):
+    def keepConstraint(self) -> KeepConstraintContext:
         stream = self._input
-        localctx = OpenSCENARIO2.KeepConstraintContext(self._ctx, self.state)
-        self.enterRule(localctx, 68, self.RULE_keepConstraint)
+        localctx = KeepConstraintContext(self._ctx, self.state)
+        self.enterRule(localctx, 68, RULE_keepConstraint)
         try:
             self.state = 459
-            self.match(OpenSCENARIO2.KEEP)
+            self.match(KEEP)
             self.state = 460
-            self.match(OpenSCENARIO2.LPAREN)
+            self.match(LPAREN)
             self.state = 462
             _la = stream.types[stream.index]
             if _la==34 or _la==35:
@@ -1611,9 +1710,9 @@ class OpenSCENARIO2(Parser):
             self.state = 464
             self.expression()
             self.state = 465
-            self.match(OpenSCENARIO2.RPAREN)
+            self.match(RPAREN)
             self.state = 466
-            self.match(OpenSCENARIO2.NEWLINE)
+            self.match(NEWLINE)
             self.state = 468
             _la = stream.types[stream.index]
             if _la==2:
@@ -1626,24 +1725,21 @@ class OpenSCENARIO2(Parser):
         return localctx
 
 
-    class RemoveDefaultContext(ParserRuleContext):
-        __slots__ = ()
-
-    def removeDefault(self):
+    def removeDefault(self) -> RemoveDefaultContext:
         stream = self._input
-        localctx = OpenSCENARIO2.RemoveDefaultContext(self._ctx, self.state)
-        self.enterRule(localctx, 70, self.RULE_removeDefault)
+        localctx = RemoveDefaultContext(self._ctx, self.state)
+        self.enterRule(localctx, 70, RULE_removeDefault)
         try:
             self.state = 470
-            self.match(OpenSCENARIO2.REMOVE_DEFAULT)
+            self.match(REMOVE_DEFAULT)
             self.state = 471
-            self.match(OpenSCENARIO2.LPAREN)
+            self.match(LPAREN)
             self.state = 472
             self.expression()
             self.state = 473
-            self.match(OpenSCENARIO2.RPAREN)
+            self.match(RPAREN)
             self.state = 474
-            self.match(OpenSCENARIO2.NEWLINE)
+            self.match(NEWLINE)
             self.state = 476
             _la = stream.types[stream.index]
             if _la==2:
@@ -1656,13 +1752,10 @@ class OpenSCENARIO2(Parser):
         return localctx
 
 
-    class CoverageDeclarationContext(ParserRuleContext):
-        __slots__ = ()
-
-    def coverageDeclaration(self):
+    def coverageDeclaration(self) -> CoverageDeclarationContext:
         stream = self._input
-        localctx = OpenSCENARIO2.CoverageDeclarationContext(self._ctx, self.state)
-        self.enterRule(localctx, 72, self.RULE_coverageDeclaration)
+        localctx = CoverageDeclarationContext(self._ctx, self.state)
+        self.enterRule(localctx, 72, RULE_coverageDeclaration)
         try:
             self.state = 478
             _la = stream.types[stream.index]
@@ -1671,16 +1764,16 @@ class OpenSCENARIO2(Parser):
             else:
                 self.consume()
             self.state = 479
-            self.match(OpenSCENARIO2.LPAREN)
+            self.match(LPAREN)
             self.state = 481
             _la = stream.types[stream.index]
             if (((_la) & ~0x3f) == 0 and ((1 << _la) & 144115188075856368) != 0) or ((((_la - 69)) & ~0x3f) == 0 and ((1 << (_la - 69)) & 6149) != 0):
                 self.state = 480
                 self.arguments()
             self.state = 483
-            self.match(OpenSCENARIO2.RPAREN)
+            self.match(RPAREN)
             self.state = 484
-            self.match(OpenSCENARIO2.NEWLINE)
+            self.match(NEWLINE)
             self.state = 486
             _la = stream.types[stream.index]
             if _la==2:
@@ -1693,13 +1786,10 @@ class OpenSCENARIO2(Parser):
         return localctx
 
 
-    class NameStatementContext(ParserRuleContext):
-        __slots__ = ()
-
-    def nameStatement(self):
+    def nameStatement(self) -> NameStatementContext:
         stream = self._input
-        localctx = OpenSCENARIO2.NameStatementContext(self._ctx, self.state)
-        self.enterRule(localctx, 74, self.RULE_nameStatement)
+        localctx = NameStatementContext(self._ctx, self.state)
+        self.enterRule(localctx, 74, RULE_nameStatement)
         try:
             self.state = 488
             self.expression()
@@ -1707,7 +1797,7 @@ class OpenSCENARIO2(Parser):
             _la = stream.types[stream.index]
             while _la==60:
                 self.state = 489
-                self.match(OpenSCENARIO2.COMMA)
+                self.match(COMMA)
                 self.state = 490
                 self.expression()
                 self.state = 495
@@ -1716,7 +1806,7 @@ class OpenSCENARIO2(Parser):
             token = stream.types[stream.index]
             if token in [59]:
                 self.state = 496
-                self.match(OpenSCENARIO2.COLON)
+                self.match(COLON)
                 self.state = 502
                 token = stream.types[stream.index]
                 if token in [45, 46, 47]:
@@ -1748,13 +1838,10 @@ class OpenSCENARIO2(Parser):
         return localctx
 
 
-    class TypedRestContext(ParserRuleContext):
-        __slots__ = ()
-
-    def typedRest(self):
+    def typedRest(self) -> TypedRestContext:
         stream = self._input
-        localctx = OpenSCENARIO2.TypedRestContext(self._ctx, self.state)
-        self.enterRule(localctx, 76, self.RULE_typedRest)
+        localctx = TypedRestContext(self._ctx, self.state)
+        self.enterRule(localctx, 76, RULE_typedRest)
         try:
             self.state = 515
             token = stream.types[stream.index]
@@ -1769,7 +1856,7 @@ class OpenSCENARIO2(Parser):
                     else:
                         self.consume()
                     self.state = 508
-                    self.match(OpenSCENARIO2.OF)
+                    self.match(OF)
                     self.state = 511
                     _la = stream.types[stream.index]
                     if not (_la==41 or _la==42):
@@ -1785,7 +1872,7 @@ class OpenSCENARIO2(Parser):
             _la = stream.types[stream.index]
             if _la==63:
                 self.state = 517
-                self.match(OpenSCENARIO2.ASSIGN)
+                self.match(ASSIGN)
                 self.state = 518
                 self.expression()
             self.state = 521
@@ -1797,13 +1884,10 @@ class OpenSCENARIO2(Parser):
         return localctx
 
 
-    class EndingContext(ParserRuleContext):
-        __slots__ = ()
-
-    def ending(self):
+    def ending(self) -> EndingContext:
         stream = self._input
-        localctx = OpenSCENARIO2.EndingContext(self._ctx, self.state)
-        self.enterRule(localctx, 78, self.RULE_ending)
+        localctx = EndingContext(self._ctx, self.state)
+        self.enterRule(localctx, 78, RULE_ending)
         try:
             self.state = 531
             token = stream.types[stream.index]
@@ -1812,7 +1896,7 @@ class OpenSCENARIO2(Parser):
                 self.withBlock()
             elif token in [1]:
                 self.state = 524
-                self.match(OpenSCENARIO2.NEWLINE)
+                self.match(NEWLINE)
                 self.state = 526
                 _la = stream.types[stream.index]
                 if _la==2:
@@ -1832,15 +1916,12 @@ class OpenSCENARIO2(Parser):
         return localctx
 
 
-    class OnDirectiveContext(ParserRuleContext):
-        __slots__ = ()
-
-    def onDirective(self):
-        localctx = OpenSCENARIO2.OnDirectiveContext(self._ctx, self.state)
-        self.enterRule(localctx, 80, self.RULE_onDirective)
+    def onDirective(self) -> OnDirectiveContext:
+        localctx = OnDirectiveContext(self._ctx, self.state)
+        self.enterRule(localctx, 80, RULE_onDirective)
         try:
             self.state = 533
-            self.match(OpenSCENARIO2.ON)
+            self.match(ON)
             self.state = 534
             self.eventSpecification()
             self.state = 535
@@ -1852,23 +1933,20 @@ class OpenSCENARIO2(Parser):
         return localctx
 
 
-    class DoDirectiveContext(ParserRuleContext):
-        __slots__ = ()
-
-    def doDirective(self):
+    def doDirective(self) -> DoDirectiveContext:
         stream = self._input
-        localctx = OpenSCENARIO2.DoDirectiveContext(self._ctx, self.state)
-        self.enterRule(localctx, 82, self.RULE_doDirective)
+        localctx = DoDirectiveContext(self._ctx, self.state)
+        self.enterRule(localctx, 82, RULE_doDirective)
         try:
             self.state = 537
-            self.match(OpenSCENARIO2.DO)
+            self.match(DO)
             self.state = 551
             token = stream.types[stream.index]
             if token in [59]:
                 self.state = 538
-                self.match(OpenSCENARIO2.COLON)
+                self.match(COLON)
                 self.state = 539
-                self.match(OpenSCENARIO2.NEWLINE)
+                self.match(NEWLINE)
                 self.state = 541
                 _la = stream.types[stream.index]
                 if _la==2:
@@ -1903,13 +1981,10 @@ class OpenSCENARIO2(Parser):
         return localctx
 
 
-    class CompositionContext(ParserRuleContext):
-        __slots__ = ()
-
-    def composition(self):
+    def composition(self) -> CompositionContext:
         stream = self._input
-        localctx = OpenSCENARIO2.CompositionContext(self._ctx, self.state)
-        self.enterRule(localctx, 84, self.RULE_composition)
+        localctx = CompositionContext(self._ctx, self.state)
+        self.enterRule(localctx, 84, RULE_composition)
         try:
             self.state = 553
             _la = stream.types[stream.index]
@@ -1921,21 +1996,21 @@ class OpenSCENARIO2(Parser):
             _la = stream.types[stream.index]
             if _la==69:
                 self.state = 554
-                self.match(OpenSCENARIO2.LPAREN)
+                self.match(LPAREN)
                 self.state = 556
                 _la = stream.types[stream.index]
                 if (((_la) & ~0x3f) == 0 and ((1 << _la) & 144115188075856368) != 0) or ((((_la - 69)) & ~0x3f) == 0 and ((1 << (_la - 69)) & 6149) != 0):
                     self.state = 555
                     self.arguments()
                 self.state = 558
-                self.match(OpenSCENARIO2.RPAREN)
+                self.match(RPAREN)
             self.state = 562
             _la = stream.types[stream.index]
             if _la==59:
                 self.state = 561
-                self.match(OpenSCENARIO2.COLON)
+                self.match(COLON)
             self.state = 564
-            self.match(OpenSCENARIO2.NEWLINE)
+            self.match(NEWLINE)
             self.state = 566
             _la = stream.types[stream.index]
             if _la==2:
@@ -1953,20 +2028,17 @@ class OpenSCENARIO2(Parser):
         return localctx
 
 
-    class WaitDirectiveContext(ParserRuleContext):
-        __slots__ = ()
-
-    def waitDirective(self):
+    def waitDirective(self) -> WaitDirectiveContext:
         stream = self._input
-        localctx = OpenSCENARIO2.WaitDirectiveContext(self._ctx, self.state)
-        self.enterRule(localctx, 86, self.RULE_waitDirective)
+        localctx = WaitDirectiveContext(self._ctx, self.state)
+        self.enterRule(localctx, 86, RULE_waitDirective)
         try:
             self.state = 571
-            self.match(OpenSCENARIO2.WAIT)
+            self.match(WAIT)
             self.state = 572
             self.eventSpecification()
             self.state = 573
-            self.match(OpenSCENARIO2.NEWLINE)
+            self.match(NEWLINE)
             self.state = 575
             _la = stream.types[stream.index]
             if _la==2:
@@ -1979,20 +2051,17 @@ class OpenSCENARIO2(Parser):
         return localctx
 
 
-    class EmitDirectiveContext(ParserRuleContext):
-        __slots__ = ()
-
-    def emitDirective(self):
+    def emitDirective(self) -> EmitDirectiveContext:
         stream = self._input
-        localctx = OpenSCENARIO2.EmitDirectiveContext(self._ctx, self.state)
-        self.enterRule(localctx, 88, self.RULE_emitDirective)
+        localctx = EmitDirectiveContext(self._ctx, self.state)
+        self.enterRule(localctx, 88, RULE_emitDirective)
         try:
             self.state = 577
-            self.match(OpenSCENARIO2.EMIT)
+            self.match(EMIT)
             self.state = 578
             self.expression()
             self.state = 579
-            self.match(OpenSCENARIO2.NEWLINE)
+            self.match(NEWLINE)
             self.state = 581
             _la = stream.types[stream.index]
             if _la==2:
@@ -2005,20 +2074,17 @@ class OpenSCENARIO2(Parser):
         return localctx
 
 
-    class CallDirectiveContext(ParserRuleContext):
-        __slots__ = ()
-
-    def callDirective(self):
+    def callDirective(self) -> CallDirectiveContext:
         stream = self._input
-        localctx = OpenSCENARIO2.CallDirectiveContext(self._ctx, self.state)
-        self.enterRule(localctx, 90, self.RULE_callDirective)
+        localctx = CallDirectiveContext(self._ctx, self.state)
+        self.enterRule(localctx, 90, RULE_callDirective)
         try:
             self.state = 583
-            self.match(OpenSCENARIO2.CALL)
+            self.match(CALL)
             self.state = 584
             self.expression()
             self.state = 585
-            self.match(OpenSCENARIO2.NEWLINE)
+            self.match(NEWLINE)
             self.state = 587
             _la = stream.types[stream.index]
             if _la==2:
@@ -2031,20 +2097,17 @@ class OpenSCENARIO2(Parser):
         return localctx
 
 
-    class UntilDirectiveContext(ParserRuleContext):
-        __slots__ = ()
-
-    def untilDirective(self):
+    def untilDirective(self) -> UntilDirectiveContext:
         stream = self._input
-        localctx = OpenSCENARIO2.UntilDirectiveContext(self._ctx, self.state)
-        self.enterRule(localctx, 92, self.RULE_untilDirective)
+        localctx = UntilDirectiveContext(self._ctx, self.state)
+        self.enterRule(localctx, 92, RULE_untilDirective)
         try:
             self.state = 589
-            self.match(OpenSCENARIO2.UNTIL)
+            self.match(UNTIL)
             self.state = 590
             self.eventSpecification()
             self.state = 591
-            self.match(OpenSCENARIO2.NEWLINE)
+            self.match(NEWLINE)
             self.state = 593
             _la = stream.types[stream.index]
             if _la==2:
@@ -2057,13 +2120,10 @@ class OpenSCENARIO2(Parser):
         return localctx
 
 
-    class ExpressionContext(ParserRuleContext):
-        __slots__ = ()
-
-    def expression(self):
+    def expression(self) -> ExpressionContext:
         stream = self._input
-        localctx = OpenSCENARIO2.ExpressionContext(self._ctx, self.state)
-        self.enterRule(localctx, 94, self.RULE_expression)
+        localctx = ExpressionContext(self._ctx, self.state)
+        self.enterRule(localctx, 94, RULE_expression)
         try:
             self.state = 598
             _la = stream.types[stream.index]
@@ -2080,19 +2140,19 @@ class OpenSCENARIO2(Parser):
             token = stream.types[stream.index]
             if token in [4]:
                 self.state = 601
-                self.match(OpenSCENARIO2.ID)
+                self.match(ID)
             elif token in [5]:
                 self.state = 602
-                self.match(OpenSCENARIO2.INTEGER)
+                self.match(INTEGER)
             elif token in [6]:
                 self.state = 603
-                self.match(OpenSCENARIO2.FLOAT)
+                self.match(FLOAT)
             elif token in [7]:
                 self.state = 604
-                self.match(OpenSCENARIO2.PHYSICAL)
+                self.match(PHYSICAL)
             elif token in [8]:
                 self.state = 605
-                self.match(OpenSCENARIO2.STRING)
+                self.match(STRING)
             elif token in [69, 71]:
                 self.state = 606
                 self.group()
@@ -2105,12 +2165,12 @@ class OpenSCENARIO2(Parser):
                 token = stream.types[stream.index]
                 if token in [61]:
                     self.state = 609
-                    self.match(OpenSCENARIO2.DOT)
+                    self.match(DOT)
                     self.state = 616
                     token = stream.types[stream.index]
                     if token in [4]:
                         self.state = 610
-                        self.match(OpenSCENARIO2.ID)
+                        self.match(ID)
                     elif token in [26, 53]:
                         self.state = 611
                         _la = stream.types[stream.index]
@@ -2119,35 +2179,35 @@ class OpenSCENARIO2(Parser):
                         else:
                             self.consume()
                         self.state = 612
-                        self.match(OpenSCENARIO2.LPAREN)
+                        self.match(LPAREN)
                         self.state = 613
                         self.typeName()
                         self.state = 614
-                        self.match(OpenSCENARIO2.RPAREN)
+                        self.match(RPAREN)
                     else:
                         raise NoViableAltException(self)
                 elif token in [67]:
                     self.state = 618
-                    self.match(OpenSCENARIO2.BANG)
+                    self.match(BANG)
                     self.state = 619
-                    self.match(OpenSCENARIO2.ID)
+                    self.match(ID)
                 elif token in [71]:
                     self.state = 620
-                    self.match(OpenSCENARIO2.LBRACKET)
+                    self.match(LBRACKET)
                     self.state = 621
                     self.expression()
                     self.state = 622
-                    self.match(OpenSCENARIO2.RBRACKET)
+                    self.match(RBRACKET)
                 elif token in [69]:
                     self.state = 624
-                    self.match(OpenSCENARIO2.LPAREN)
+                    self.match(LPAREN)
                     self.state = 626
                     _la = stream.types[stream.index]
                     if (((_la) & ~0x3f) == 0 and ((1 << _la) & 144115188075856368) != 0) or ((((_la - 69)) & ~0x3f) == 0 and ((1 << (_la - 69)) & 6149) != 0):
                         self.state = 625
                         self.arguments()
                     self.state = 628
-                    self.match(OpenSCENARIO2.RPAREN)
+                    self.match(RPAREN)
                 elif token in [55, 56, 58, 73, 74, 75, 76, 77, 78, 79, 80, 81, 82, 83, 84]:
                     self.state = 629
                     _la = stream.types[stream.index]
@@ -2170,19 +2230,19 @@ class OpenSCENARIO2(Parser):
                     token = stream.types[stream.index]
                     if token in [4]:
                         self.state = 636
-                        self.match(OpenSCENARIO2.ID)
+                        self.match(ID)
                     elif token in [5]:
                         self.state = 637
-                        self.match(OpenSCENARIO2.INTEGER)
+                        self.match(INTEGER)
                     elif token in [6]:
                         self.state = 638
-                        self.match(OpenSCENARIO2.FLOAT)
+                        self.match(FLOAT)
                     elif token in [7]:
                         self.state = 639
-                        self.match(OpenSCENARIO2.PHYSICAL)
+                        self.match(PHYSICAL)
                     elif token in [8]:
                         self.state = 640
-                        self.match(OpenSCENARIO2.STRING)
+                        self.match(STRING)
                     elif token in [69, 71]:
                         self.state = 641
                         self.group()
@@ -2196,11 +2256,11 @@ class OpenSCENARIO2(Parser):
             _la = stream.types[stream.index]
             if _la==66:
                 self.state = 649
-                self.match(OpenSCENARIO2.QUESTION)
+                self.match(QUESTION)
                 self.state = 650
                 self.expression()
                 self.state = 651
-                self.match(OpenSCENARIO2.COLON)
+                self.match(COLON)
                 self.state = 652
                 self.expression()
         except RecognitionException as re:
@@ -2210,26 +2270,23 @@ class OpenSCENARIO2(Parser):
         return localctx
 
 
-    class GroupContext(ParserRuleContext):
-        __slots__ = ()
-
-    def group(self):
+    def group(self) -> GroupContext:
         stream = self._input
-        localctx = OpenSCENARIO2.GroupContext(self._ctx, self.state)
-        self.enterRule(localctx, 96, self.RULE_group)
+        localctx = GroupContext(self._ctx, self.state)
+        self.enterRule(localctx, 96, RULE_group)
         try:
             self.state = 676
             token = stream.types[stream.index]
             if token in [69]:
                 self.state = 656
-                self.match(OpenSCENARIO2.LPAREN)
+                self.match(LPAREN)
                 self.state = 657
                 self.expression()
                 self.state = 658
-                self.match(OpenSCENARIO2.RPAREN)
+                self.match(RPAREN)
             elif token in [71]:
                 self.state = 660
-                self.match(OpenSCENARIO2.LBRACKET)
+                self.match(LBRACKET)
                 self.state = 673
                 _la = stream.types[stream.index]
                 if (((_la) & ~0x3f) == 0 and ((1 << _la) & 144115188075856368) != 0) or ((((_la - 69)) & ~0x3f) == 0 and ((1 << (_la - 69)) & 6149) != 0):
@@ -2239,7 +2296,7 @@ class OpenSCENARIO2(Parser):
                     token = stream.types[stream.index]
                     if token in [62]:
                         self.state = 662
-                        self.match(OpenSCENARIO2.RANGE_DOTS)
+                        self.match(RANGE_DOTS)
                         self.state = 663
                         self.expression()
                     elif token in [60, 72]:
@@ -2247,7 +2304,7 @@ class OpenSCENARIO2(Parser):
                         _la = stream.types[stream.index]
                         while _la==60:
                             self.state = 664
-                            self.match(OpenSCENARIO2.COMMA)
+                            self.match(COMMA)
                             self.state = 665
                             self.expression()
                             self.state = 670
@@ -2255,7 +2312,7 @@ class OpenSCENARIO2(Parser):
                     else:
                         raise NoViableAltException(self)
                 self.state = 675
-                self.match(OpenSCENARIO2.RBRACKET)
+                self.match(RBRACKET)
             else:
                 raise NoViableAltException(self)
         except RecognitionException as re:
@@ -2265,13 +2322,10 @@ class OpenSCENARIO2(Parser):
         return localctx
 
 
-    class ArgumentsContext(ParserRuleContext):
-        __slots__ = ()
-
-    def arguments(self):
+    def arguments(self) -> ArgumentsContext:
         stream = self._input
-        localctx = OpenSCENARIO2.ArgumentsContext(self._ctx, self.state)
-        self.enterRule(localctx, 98, self.RULE_arguments)
+        localctx = ArgumentsContext(self._ctx, self.state)
+        self.enterRule(localctx, 98, RULE_arguments)
         try:
             self.state = 678
             self.expression()
@@ -2279,21 +2333,21 @@ class OpenSCENARIO2(Parser):
             _la = stream.types[stream.index]
             if _la==59:
                 self.state = 679
-                self.match(OpenSCENARIO2.COLON)
+                self.match(COLON)
                 self.state = 680
                 self.expression()
             self.state = 691
             _la = stream.types[stream.index]
             while _la==60:
                 self.state = 683
-                self.match(OpenSCENARIO2.COMMA)
+                self.match(COMMA)
                 self.state = 684
                 self.expression()
                 self.state = 687
                 _la = stream.types[stream.index]
                 if _la==59:
                     self.state = 685
-                    self.match(OpenSCENARIO2.COLON)
+                    self.match(COLON)
                     self.state = 686
                     self.expression()
                 self.state = 693

@@ -8,7 +8,7 @@ from typing import Any
 from osc2tx.diagnostics.fixes import write
 from osc2tx.syntax import ast
 from osc2tx.syntax import tokens as t
-from osc2tx.syntax._antlr.OpenSCENARIO2 import OpenSCENARIO2 as Grammar
+from osc2tx.syntax._antlr import OpenSCENARIO2 as Grammar
 from osc2tx.syntax.ast_builder.base import Builder, StatementBuilder, Tree
 from osc2tx.syntax.ast_builder.events import build_event_specification, call_parts
 from osc2tx.syntax.ast_builder.expressions import build_arguments, build_expression

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from osc2tx.diagnostics import Span
 from osc2tx.syntax import ast
 from osc2tx.syntax import tokens as t
-from osc2tx.syntax._antlr.OpenSCENARIO2 import OpenSCENARIO2 as Grammar
+from osc2tx.syntax._antlr import OpenSCENARIO2 as Grammar
 from osc2tx.syntax.ast_builder.base import Builder, StatementBuilder, Tree
 from osc2tx.syntax.ast_builder.enums import PRIMITIVES, build_enum_members
 from osc2tx.syntax.ast_builder.expressions import build_expression

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from osc2tx.syntax import ast
-from osc2tx.syntax._antlr.OpenSCENARIO2 import OpenSCENARIO2 as Grammar
+from osc2tx.syntax._antlr import OpenSCENARIO2 as Grammar
 from osc2tx.syntax.ast_builder.base import Builder, StatementBuilder, Tree
 from osc2tx.syntax.ast_builder.expressions import build_arguments, build_expression
 from osc2tx.syntax.ast_builder.statement_contexts import Place

@@ -8,7 +8,7 @@ from osc2tx.diagnostics import Span
 from osc2tx.diagnostics.fixes import Edit, leave_out, rewrite
 from osc2tx.syntax import ast
 from osc2tx.syntax import tokens as t
-from osc2tx.syntax._antlr.OpenSCENARIO2 import OpenSCENARIO2 as Grammar
+from osc2tx.syntax._antlr import OpenSCENARIO2 as Grammar
 from osc2tx.syntax.ast_builder.base import Builder, StatementBuilder, Tree
 from osc2tx.syntax.ast_builder.events import build_event_specification, build_parameters
 from osc2tx.syntax.ast_builder.expressions import build_arguments, build_expression

@@ -14,7 +14,7 @@ from osc2tx.diagnostics import Span
 from osc2tx.diagnostics.fixes import Help, leave_out, write
 from osc2tx.syntax import ast
 from osc2tx.syntax import tokens as t
-from osc2tx.syntax._antlr.OpenSCENARIO2 import OpenSCENARIO2 as Grammar
+from osc2tx.syntax._antlr import OpenSCENARIO2 as Grammar
 from osc2tx.syntax.ast_builder.base import Builder, StatementBuilder, Tree
 from osc2tx.syntax.ast_builder.enums import PRIMITIVES
 from osc2tx.syntax.ast_builder.events import call_parts
@@ -27,10 +27,11 @@ from osc2tx.syntax.syntax_errors import describe_token, shortened
 _COLON, _DOT = t.PUNCTUATION[":"], t.PUNCTUATION["."]
 _FIELDS = frozenset({Place.STRUCT, Place.ACTOR, Place.BEHAVIOR, Place.MODIFIER, Place.EXTENSION})
 _APPLICATIONS = (_FIELDS - {Place.STRUCT}) | {Place.WITH}
-_BRACKETED_TYPE = re.compile(r"(?:list)?\[(\w+)\]")
-_COUNTED_TYPE = re.compile(r"(\w+)\[(\d+)\]")
-_BOUNDED_TYPE = re.compile(r"(\w+) +in +(\[[^\n]{1,60}\])")
-_COMPARED_TYPE = re.compile(r"(\w+) *== *(.{1,40})")
+# Types as other languages write them; compiled on the first type that is none of ours.
+_BRACKETED_TYPE = r"(?:list)?\[(\w+)\]"
+_COUNTED_TYPE = r"(\w+)\[(\d+)\]"
+_BOUNDED_TYPE = r"(\w+) +in +(\[[^\n]{1,60}\])"
+_COMPARED_TYPE = r"(\w+) *== *(.{1,40})"
 _WITH_WORDS = {
     "duration": "the duration is an argument of the invocation: `(duration: …)`",
     "until": "write `until …` without a colon",
@@ -194,13 +195,13 @@ def _report_no_type(b: Builder, tree: Tree) -> None:
     found = describe_token(b.table, tree.start)
     span: Span = b.tree_span(tree)
     help_: Help = "a field is declared `name: type = value`"
-    if listed := _BRACKETED_TYPE.fullmatch(span.text):
+    if listed := re.fullmatch(_BRACKETED_TYPE, span.text):
         help_ = write(span, f"list of {listed[1]}")
-    elif listed := _COUNTED_TYPE.fullmatch(span.text):
+    elif listed := re.fullmatch(_COUNTED_TYPE, span.text):
         help_ = _with_constraint(b, span, f"list of {listed[1]}", f"it.size() == {listed[2]}")
-    elif bounded := _BOUNDED_TYPE.fullmatch(span.text):
+    elif bounded := re.fullmatch(_BOUNDED_TYPE, span.text):
         help_ = _with_constraint(b, span, bounded[1], f"it in {bounded[2]}")
-    elif compared := _COMPARED_TYPE.fullmatch(span.text):
+    elif compared := re.fullmatch(_COMPARED_TYPE, span.text):
         given = f"{compared[1]} = {compared[2]}"
         help_ = write(span, given, f"a value is given with one `=`: `{given}`")
     b.report("OSC100", span, f"expected a type name, found {found}", help_)

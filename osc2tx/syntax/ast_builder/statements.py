@@ -9,7 +9,7 @@ from osc2tx.diagnostics import Span
 from osc2tx.diagnostics.fixes import Help, insert, leave_out
 from osc2tx.syntax import ast
 from osc2tx.syntax import tokens as t
-from osc2tx.syntax._antlr.OpenSCENARIO2 import OpenSCENARIO2 as Grammar
+from osc2tx.syntax._antlr import OpenSCENARIO2 as Grammar
 from osc2tx.syntax.ast_builder.base import Builder, Tree
 from osc2tx.syntax.ast_builder.statement_contexts import ALLOWED, Place, help_for
 from osc2tx.syntax.tokens import Comment

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from antlr4.atn.ATNDeserializer import ATNDeserializer
 
-from osc2tx.syntax._antlr.OpenSCENARIO2 import OpenSCENARIO2, serializedATN
+from osc2tx.syntax._antlr import OpenSCENARIO2
 from osc2tx.syntax.parser import statement_starts
 
 ROOT = Path(__file__).parents[3]
@@ -37,7 +37,7 @@ def test_the_parser_is_made_from_the_grammar(tmp_path: Path) -> None:
 
 
 def test_the_starts_of_statements_are_those_of_antlr() -> None:
-    made = ATNDeserializer().deserialize(serializedATN())
+    made = ATNDeserializer().deserialize(OpenSCENARIO2.serializedATN())
     expected = made.nextTokens(made.ruleToStartState[OpenSCENARIO2.RULE_statement])
     assert statement_starts() == frozenset(expected)
 

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from osc2tx.syntax._antlr.OpenSCENARIO2 import OpenSCENARIO2
+from osc2tx.syntax._antlr import OpenSCENARIO2
 from osc2tx.syntax.tokens import DEDENT, EOF, INDENT, KEYWORDS, NEWLINE, PUNCTUATION
 from tests.unit.syntax.helpers import scanned, shown
 
