@@ -34,7 +34,7 @@ MOST_ACTOR_STEPS = 8_000
 MOST_EVENTS = 400
 """Of documents with more there is no run."""
 
-_END_OF_ROAD = re.compile(r"(\w+) has reached the end of lane ")
+_END_OF_ROAD = re.compile(r"(\w*) has reached the end of lane |(\w*) is not on a road, so ")
 
 
 @dataclass(frozen=True)
@@ -186,10 +186,11 @@ class _Case:
 def at_end_of_road(
     failure: Failed, played: Recording, names: Mapping[str, str], late: float
 ) -> str:
-    """Return the actor whose road ends when a run fails, if it does in the player too.
+    """Return the first actor whose road ends when a run fails, if all that it names are there.
 
-    The standard does not define ends of roads: the player stops an entity there, a scenario fails,
-    and names the actor. Both are at the same position then.
+    The standard does not define ends of roads: the player stops an entity there. A scenario fails
+    and names the actor: at once, or when it next looks for its lane. Both are at the same position
+    when the player comes to the end.
 
     Args:
         failure: The failure of the run.
@@ -197,14 +198,23 @@ def at_end_of_road(
         names: Names of the actors in the scenario, by those in the document.
         late: Time (s) by which one may be later than the other.
     """
-    run, found = failure.recording, _END_OF_ROAD.search(str(failure))
-    actor = found[1] if found is not None else ""
-    said = next((each for each, name in names.items() if name == actor), "")
-    if abs(played.ends.get(said, math.inf) - run.end) > late:
-        return ""
-    here, there = run.track[actor][-1], played.track[said][-1]
-    near = EXACT + late * abs(here[3])
-    return actor if math.dist(here[1:3], there[1:3]) <= near else ""
+    run, said_of = failure.recording, {name: said for said, name in names.items()}
+    found = _END_OF_ROAD.findall(str(failure))
+    for at_once, afterwards in found:
+        actor = at_once or afterwards
+        said = said_of.get(actor, "")
+        end = played.ends.get(said, math.inf)
+        if end - run.end > late or (at_once and run.end - end > late):
+            return ""
+        here, there = _row_at(run.track[actor], end), _row_at(played.track[said], end)
+        if math.dist(here[1:3], there[1:3]) > EXACT + late * abs(here[3]):
+            return ""
+    return "".join(found[0]) if found else ""
+
+
+def _row_at(rows: Sequence[Row], time: float) -> Row:
+    """Return the last row up to a time (s)."""
+    return next(row for row in reversed(rows) if row[0] <= time + ROUNDING)
 
 
 def _apart(

@@ -92,13 +92,15 @@ class Courses:
     def is_nominal(self, trajectory: Node) -> bool:
         """Whether parameters give a part of a trajectory that does not follow them."""
         vertices = list(self._values.document.given(trajectory.element, xml.Vertex))
-        return any(
-            text.startswith("$")
-            for part in vertices or [trajectory.element]
-            if not (vertices and self._varied(trajectory.other(part.one(xml.Position).inner)))
-            for each in part.walk()
-            for _, text in each.attributes
-        )
+        for part in vertices or [trajectory.element]:
+            is_given = any(
+                text.startswith("$") for each in part.walk() for _, text in each.attributes
+            )
+            if is_given and not (
+                vertices and self._varied(trajectory.other(part.one(xml.Position).inner))
+            ):
+                return True
+        return False
 
     def _varied(self, place: Node) -> str:
         """Return a point of the map whose place varies from run to run; `""`: it does not."""

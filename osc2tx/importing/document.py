@@ -74,7 +74,6 @@ class Document:
         comments: Sequence[Comment],
         folders: Folders = NOWHERE,
     ) -> None:
-        self.root = scoped(with_each(root, with_plain_names))
         self.path = path
         self.comments = comments
         self._folders = folders
@@ -86,6 +85,9 @@ class Document:
             if part.tag != "ParameterDeclarations"
             for node in part.below(xml.ParameterDeclaration)
         ]
+        root = with_each(root, with_plain_names)
+        self.root = scoped(root) if self.scoped else root
+        self._resolutions: dict[int, tuple[Element, Element]] = {}
 
     def resolved_with(self, values: Mapping[str, str]) -> Element:
         """Return the document as `resolved`, with other values of some parameters."""
@@ -218,18 +220,25 @@ class Document:
     @cached_property
     def resolved(self) -> Element:
         """The document with the entries of catalogs in it, and parameters at nominal values."""
-        return self._resolve(self.root)
+        return self.resolution(self.root)
+
+    def resolution(self, node: Element) -> Element:
+        """Return an element with parameters at nominal values, and entries of catalogs in it."""
+        known = self._resolutions.get(id(node))
+        if known is None or known[0] is not node:
+            known = self._resolutions[id(node)] = node, self._resolve(node)
+        return known[1]
 
     def _resolve(self, node: Element) -> Element:
         if node.tag == "CatalogReference":
             found = self.entry(node)
             if found is not None:
-                return self._resolve(found[0])
+                return self.resolution(found[0])
         given = any([text.startswith("$") for _, text in node.attributes])
         if given:
             texts = {name: self.text_at(text) for name, text in node.attributes}
             node = node.with_attributes(texts)
-        return with_each(node, self._resolve)
+        return with_each(node, self.resolution)
 
     def given(self, node: Element, kind: type[Element]) -> Iterator[Element]:
         """Yield the elements of a kind in a part with the entries of catalogs in it, as given."""

@@ -35,7 +35,6 @@ class Ground:
 
     def __init__(self, document: Document) -> None:
         self._document = document
-        self._resolved: dict[int, tuple[Element, Element]] = {}
         self.map: RoadMap | None = None
         if document.map_file is not None:
             try:
@@ -106,11 +105,7 @@ class Ground:
 
     def resolved(self, node: Node) -> Element:
         """Return an element with its parameters at nominal values, and catalog entries in it."""
-        found = self._resolved.get(id(node.element))
-        if found is None or found[0] is not node.element:
-            found = node.element, self._document._resolve(node.element)
-            self._resolved[id(node.element)] = found
-        return found[1]
+        return self._document.resolution(node.element)
 
     def known(self, position: Element) -> LanePosition | Pose | None:
         """Return the place of a resolved position at the start; `None` if it is not known."""

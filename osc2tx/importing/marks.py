@@ -23,16 +23,14 @@ class Marks:
 
     def __init__(self, document: Document, names: Names, report: ImportReport) -> None:
         self._names, self._report = names, report
-        root = document.root
         self._measured = {
             node.get("variableRef") or node.get("parameterRef")
-            for kind in (xml.VariableCondition, xml.ParameterCondition)
-            for node in root.below(kind)
+            for node in document.tagged("VariableCondition", "ParameterCondition")
             if node.get("rule") != "equalTo"
         }
         self._initial = {
             node.get("name") or "": _plain(node.get("value") or "")
-            for node in root.below(xml.VariableDeclaration)
+            for node in document.tagged("VariableDeclaration")
         }
         self._set: dict[str, set[str]] = {}
         self._modified: set[str] = set()

@@ -12,6 +12,7 @@ from osc2tx.importing.dimensions import LENGTH, TIME, Quantity, literal
 from osc2tx.importing.effects import BOTH, LATERAL, Effect, Reader
 from osc2tx.importing.points import Spot
 from osc2tx.importing.statements import Call, Statement, call
+from osc2tx.xosc import elements as xml
 from osc2tx.xosc.player.bodies import Body, Pose
 from osc2tx.xosc.player.shapes import CHORD, Way
 from osc2tx_shared.classes import replace
@@ -143,14 +144,13 @@ class Routes(Reader):
     @staticmethod
     def _note(node: Node, *, timed: bool) -> None:
         """Note what of a trajectory has no part in where it leads, and take the rest."""
-        inner = [node.other(each) for each in node.element.walk()]
-        for trajectory in (each for each in inner if each.tag == "Trajectory"):
+        for trajectory in map(node.other, node.element.below(xml.Trajectory)):
             trajectory.idle("nothing refers to it by its name", "name")
             if (trajectory.text("closed") or "false").lower() in ("true", "1"):
                 trajectory.approximate("a closed trajectory is followed once")
             else:
                 trajectory.idle("it is not closed", "closed")
-        for vertex in (each for each in inner if each.tag == "Vertex" and not timed):
+        for vertex in () if timed else map(node.other, node.element.below(xml.Vertex)):
             vertex.idle("times do not count without `Timing`", "time")
         node.use_all()
 

@@ -87,8 +87,10 @@ def _of_element(
         right: Types with attributes or children in which nothing is wrong; gains those found.
     """
     tags = [child.tag for child in node.children]
+    names = [name for name, _ in node.attributes]
     for key, check in (
-        ((type_name, node.attributes), _of_attributes),
+        ((type_name, "names", *names), _of_names),
+        ((type_name, node.attributes), _of_texts),
         ((type_name, *tags), _of_children),
     ):
         if key not in right:
@@ -133,20 +135,28 @@ def is_deprecated(part: Part, version: XmlVersion) -> bool:
     return bool(part.deprecated) and part.deprecated <= version
 
 
-def _of_attributes(node: Element, type_name: str, version: XmlVersion) -> Iterator[Problem]:
+def _of_names(node: Element, type_name: str, version: XmlVersion) -> Iterator[Problem]:
+    """Yield what is wrong with the attributes, whatever their texts are."""
     known = element_type(type_name).attributes
-    given = {name: text for name, text in node.attributes if not _is_of_xml(name)}
-    for name, text in given.items():
+    given = [name for name, _ in node.attributes if not _is_of_xml(name)]
+    for name in given:
         part = known.get(name)
         if part is None or not part.is_in(version):
             yield Problem(f"{name} of <{node.tag}>", node.place)
             continue
         if is_deprecated(part, version):
             yield Problem(f"{name} of <{node.tag}> is deprecated", node.place, is_warning=True)
-        yield from _of_text(node, name, text, part.type, version)
     for name in required_attributes(type_name, version):
         if name not in given:
             yield Problem(f"<{node.tag}> without {name}", node.place)
+
+
+def _of_texts(node: Element, type_name: str, version: XmlVersion) -> Iterator[Problem]:
+    known = element_type(type_name).attributes
+    for name, text in node.attributes:
+        part = known.get(name)
+        if part is not None and part.is_in(version):
+            yield from _of_text(node, name, text, part.type, version)
 
 
 def _is_of_xml(name: str) -> bool:

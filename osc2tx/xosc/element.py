@@ -189,7 +189,8 @@ class Element:
         while pending:
             node = pending.pop()
             yield node
-            pending.extend(reversed(node.children))
+            if node.children:
+                pending += node.children[::-1]
 
     def below(self, kind: type[E]) -> Iterator[E]:
         """Yield the elements of a kind in it, itself included, in the order of the document."""

@@ -53,6 +53,7 @@ def test_a_run_up_to_the_end_of_a_road_is_no_exact_one() -> None:
 
 
 END = "ego.drive() failed at 5 s: {} has reached the end of lane -1 of road 2"
+OFF = "ego.change_lane() failed at 5 s: {} is not on a road, so it has no lane"
 
 
 @pytest.mark.parametrize(
@@ -62,6 +63,9 @@ END = "ego.drive() failed at 5 s: {} has reached the end of lane -1 of road 2"
         (END.format("ego"), 6.0, 100.0, ""),  # the player has it there later
         (END.format("ego"), 5.0, 80.0, ""),  # or elsewhere
         (END.format("other"), 5.0, 100.0, ""),
+        (f"{END.format('ego')}; {END.format('other')}", 5.0, 100.0, ""),  # not all of them
+        (OFF.format("ego"), 5.0, 100.0, "ego"),
+        (OFF.format("ego"), 6.0, 100.0, ""),
         ("ego.drive() failed at 5 s: it is too fast", 5.0, 100.0, ""),
     ],
 )
