@@ -17,13 +17,13 @@ from osc2tx.backends.xosc.document import make_document
 from osc2tx.backends.xosc.facts.maps import MapFolders
 from osc2tx.backends.xosc.facts.start_places import read_signal, read_spawn
 from osc2tx.backends.xosc.logical.distributions import document as values_document
-from osc2tx.backends.xosc.logical.documents import Logical, LogicalWriter
-from osc2tx.backends.xosc.logical.parameters import OpenParameter, told
+from osc2tx.backends.xosc.logical.documents import LogicalWriter
+from osc2tx.backends.xosc.logical.parameter_report import report_parameters
 from osc2tx.backends.xosc.logical.sampling import Choosing
 from osc2tx.backends.xosc.names import Names
-from osc2tx.backends.xosc.report import NOTHING, Inexpressible, LossReport, Remedy
+from osc2tx.backends.xosc.report import Inexpressible, LossReport
 from osc2tx.backends.xosc.report_json import report_json
-from osc2tx.backends.xosc.scopes import key_of, open_scopes
+from osc2tx.backends.xosc.scopes import open_scopes
 from osc2tx.diagnostics import Span
 from osc2tx.options import XmlOptions
 from osc2tx.xosc.element import Element, Unwritable
@@ -119,7 +119,7 @@ class _Emission:
         found = writer.run()
         ctx, document = found.ctx, found.document
         if document is not None:
-            _report_parameters(found, writer.parameters)
+            report_parameters(found, writer.parameters)
         made = self._made(infix, ctx.report, ctx.origins, ctx.map_places)
         if document is None or not ctx.report.is_expressible:
             return made
@@ -138,9 +138,9 @@ class _Emission:
         map_places: tuple[Path, ...] = (),
     ) -> XmlScenario:
         """Return the scenario without its document."""
-        text = report_json(report, self._scenario, self._module)
+        told = report_json(report, self._scenario, self._module)
         name = self._scenario.name
-        return XmlScenario(name, infix, None, None, report, text, origins, map_places)
+        return XmlScenario(name, infix, None, None, report, told, origins, map_places)
 
     def _write(self, maps: MapFolders, choosing: Choosing) -> tuple[Context, Element | None]:
         """Return the document for a choice of open parameters; `None` if there cannot be one."""
@@ -173,74 +173,3 @@ class _Emission:
         except Unwritable as error:  # what is told above all of the scenario
             ctx.report.refuse("scenario", self._scenario.span, error)
             return ctx, None
-
-
-# --- open parameters in the report ----------------------------------------------------------------
-
-MOST_NAMES = 4
-"""Parameters of the document that a note names."""
-
-
-def _report_parameters(found: Logical, parameters: Sequence[OpenParameter]) -> None:
-    """Say which parameters can still be chosen, and what the others are."""
-    known = {parameter.key for parameter in parameters}
-    for parameter in parameters:
-        if parameter in found.kept and found.ctx.version >= "1.1":
-            note = _note(found, parameter)
-            found.ctx.report.exact(parameter.construct, parameter.span, note)
-        else:
-            _report_loss(found, parameter)
-    for scope in found.ctx.scope.all():
-        for declaration in scope.scenario.declarations:
-            if (
-                isinstance(declaration, ir.Parameter)
-                and declaration.value is None
-                and key_of(scope.path, declaration) not in known
-                and not scope.values.is_given(declaration.name)
-            ):
-                _report_value(found.ctx, declaration)
-
-
-def _report_value(ctx: Context, declaration: ir.Parameter) -> None:
-    """Report a parameter that is none of the document."""
-    construct = f"parameter {declaration.name}"
-    match declaration.domain:
-        case ir.RangeValue():
-            ctx.report.exact(construct, declaration.span, "it has just one value")
-        case ir.Choices():
-            reason = "OpenSCENARIO XML has no parameters with such values"
-            bound = "every run is one that the scenario allows; it always has the first value"
-            ctx.report.approximate(construct, declaration.span, reason, bound)
-
-
-def _note(found: Logical, parameter: OpenParameter) -> str:
-    """Return what follows from a parameter that stays open."""
-    following = found.causes.get(parameter.key, ())
-    if not following:
-        return ""
-    named = ", ".join(following[:MOST_NAMES])
-    more = f" and {len(following) - MOST_NAMES} more" if len(following) > MOST_NAMES else ""
-    follow = "follows" if len(following) == 1 else "follow"
-    return f"{named}{more} {follow} from it in each row of the table of values"
-
-
-def _report_loss(found: Logical, parameter: OpenParameter) -> None:
-    ctx, point = found.ctx, found.ctx.choosing.point
-    if parameter in found.kept:
-        reason = "OpenSCENARIO XML 1.0 has parameters, but no values for them"
-        remedy = Remedy(version="1.1")
-    elif ctx.version == "1.0":
-        reason = "OpenSCENARIO XML 1.0 has no expressions and no values for parameters"
-        remedy = Remedy(version="1.1")
-    else:
-        reason = "which elements there are depends on it"
-        remedy = NOTHING
-    values = parameter.told(found.domain.values(parameter, point))
-    bound = f"{parameter.name} is {told(point[parameter.key])} of {values}"
-    ctx.report.approximate(
-        parameter.construct,
-        parameter.span,
-        reason,
-        f"every run is one that the scenario allows; {bound}",
-        remedy,
-    )

@@ -7,13 +7,12 @@ from collections.abc import Mapping
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.signals.traffic_lights import lamps_condition, shows
 from osc2tx.backends.xosc.conditions.comparisons import Comparison, Groups, relative_speed
+from osc2tx.backends.xosc.conditions.event_parameters import parameter_condition
 from osc2tx.backends.xosc.conditions.flow import NEVER, Edge, Flow, Test, all_of, any_of
 from osc2tx.backends.xosc.conditions.measures import FINITE, MEASURES
 from osc2tx.backends.xosc.context import Context
-from osc2tx.backends.xosc.logical.parameters import value_text
 from osc2tx.backends.xosc.report import GENERIC, Inexpressible, Remedy
 from osc2tx.backends.xosc.values.constants import Constant, Named
-from osc2tx.xosc import elements as xml
 from osc2tx.xosc.literals import Rule
 
 RULES: Mapping[str, Rule] = {
@@ -229,43 +228,3 @@ def _argument(ctx: Context, expression: ir.Expression) -> Constant:
     if isinstance(value, Named) and value.name in ctx.cast:
         return Named(ctx.cast[value.name].name)
     return value
-
-
-# --- what an event hands over ---------------------------------------------------------------------
-# Parameters of events are variables, set when the event is emitted.
-
-
-def set_parameters(ctx: Context, emission: ir.Emit) -> tuple[xml.ActionPart, ...]:
-    """Return the actions that set what an emission hands over.
-
-    Raises:
-        Inexpressible: It is only known during the run.
-    """
-    found = []
-    for argument in emission.arguments:
-        value = ctx.values.of(argument.value)
-        variable = _variable(ctx, emission.event.name, argument.parameter, value)
-        found.append(ctx.set_variable(variable, value_text(value)))
-    return tuple(found)
-
-
-def parameter_condition(
-    ctx: Context, argument: ir.EventArgument, rule: Rule, value: Constant
-) -> xml.ByValueCondition:
-    """Return the condition on what an event has handed over."""
-    if not isinstance(value, (int, float)):
-        ctx.require_support("ParameterCondition/text", argument.span)
-    variable = _variable(ctx, argument.event, argument.parameter, value)
-    return ctx.variable_is(variable, rule, value_text(value))
-
-
-def _variable(ctx: Context, event: str, parameter: str, value: Constant) -> str:
-    """Return the variable for a parameter of an event, declared."""
-    variable = ctx.variable_name(f"{ctx.scope.prefix}{event}.{parameter}")
-    if isinstance(value, bool):
-        ctx.declare(variable, "boolean", "false")
-    elif isinstance(value, (int, float)):
-        ctx.declare(variable, "double", "0")
-    else:
-        ctx.declare(variable, "string", "")
-    return variable

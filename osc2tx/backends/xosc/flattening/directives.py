@@ -8,7 +8,7 @@ from osc2tx.backends.xosc.actions.leaf import Globals, Later
 from osc2tx.backends.xosc.actions.registry import GLOBAL_ACTIONS
 from osc2tx.backends.xosc.actions.signals.vehicle_lights import followed_lights
 from osc2tx.backends.xosc.actions.user_actions import command_of, no_model, own_command
-from osc2tx.backends.xosc.conditions.expressions import set_parameters
+from osc2tx.backends.xosc.conditions.event_parameters import set_parameters
 from osc2tx.backends.xosc.conditions.flow import NEVER, Edge, Flow, Test, single
 from osc2tx.backends.xosc.flattening.builder import RUN_START, StoryboardBuilder, construct_of
 from osc2tx.backends.xosc.names import event_name, plain
@@ -56,9 +56,8 @@ def emit(builder: StoryboardBuilder, node: ir.Emit, start: Flow) -> Flow:
     name = ctx.names.new(f"emit_{ctx.scope.prefix}{node.event.name}")
     setting = events.setting(node.event.name)
     done = builder.add(name, (*set_parameters(ctx, node), setting), start, actor=builder.mark_actor)
-    if events.occurrences.is_emitted_often(
-        node.event.name
-    ):  # the next occurrence needs an edge of its own
+    if events.occurrences.is_emitted_often(node.event.name):
+        # The next occurrence needs an edge of its own.
         reset = events.setting(node.event.name, "false")
         builder.add(ctx.names.new(f"after_{name}"), (reset,), done, actor=builder.mark_actor)
     else:

@@ -12,15 +12,8 @@ from copy import copy
 
 from osc2tx import ir
 from osc2tx.backends.xosc.report import Inexpressible
-from osc2tx.backends.xosc.values.constants import (
-    Bounds,
-    Constant,
-    Member,
-    MethodResult,
-    Named,
-    Objects,
-    UserTypes,
-)
+from osc2tx.backends.xosc.values.constants import Bounds, Constant, Member, MethodResult, Named
+from osc2tx.backends.xosc.values.objects import Objects, UserTypes
 from osc2tx.xosc.expressions import Symbol
 from osc2tx.xosc.numbers import Noted
 
