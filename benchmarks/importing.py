@@ -23,6 +23,7 @@ from itertools import pairwise
 from lxml import etree
 
 from osc2tx.importing.importer import import_document
+from osc2tx.start import collect_rarely
 from osc2tx.xosc import read
 
 STEP = '<SpeedActionDynamics dynamicsShape="step" dynamicsDimension="time" value="0"/>'
@@ -164,7 +165,7 @@ def main() -> None:
     parser.add_argument("shapes", nargs="*", metavar="shape", help=", ".join(SHAPES))
     parser.add_argument("--size", type=float, default=1.0, metavar="MB")
     arguments = parser.parse_args()
-    gc.set_threshold(200_000, 30, 30)  # as the command line does
+    collect_rarely()  # as the command line does
     antlr = start_of_antlr()
     print(f"import antlr4: {antlr:.3f} s")
     import_document(chain(8), "warm.xosc", {})

@@ -19,11 +19,16 @@ if TYPE_CHECKING:
 _INTERRUPTED = 130
 
 
+def collect_rarely() -> None:
+    """Look for garbage rarely: objects that are loaded and parsed stay."""
+    gc.set_threshold(200_000, 30, 30)
+
+
 def main() -> NoReturn:
     """Run the command line and end the process."""
     try:
         signal.signal(signal.SIGINT, lambda number, frame: os._exit(_INTERRUPTED))
-        gc.set_threshold(200_000, 30, 30)  # loaded and parsed objects stay: collect rarely
+        collect_rarely()
         from osc2tx.building.answers import Answer
 
         answer = Answer(sys.argv[1:])

@@ -10,6 +10,8 @@ from tempfile import TemporaryDirectory
 import pytest
 from hypothesis import HealthCheck, settings
 
+from osc2tx.start import collect_rarely
+
 DATA_VARIABLE = "OSC2TX_TEST_DATA"
 
 # The same examples each time, and no clock decides: the machine may be busy.
@@ -58,7 +60,7 @@ def pytest_collection_finish() -> None:
     """Look for garbage as rarely as the command does, and not among what is there to stay."""
     gc.collect()
     gc.freeze()
-    gc.set_threshold(200_000, 30, 30)
+    collect_rarely()
 
 
 @pytest.fixture

@@ -1,4 +1,4 @@
-"""Queries about trees of behavior: members before, after, beside and around a member."""
+"""Queries about trees of behavior: members around a member, when they start, what ends them."""
 
 from __future__ import annotations
 

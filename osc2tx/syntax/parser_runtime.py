@@ -96,9 +96,10 @@ class Parser:
         """Read a token of a type."""
         stream = self._input
         index = stream.index
-        context = self._ctx
-        if stream.types[index] != expected or context is None:
+        if stream.types[index] != expected:
             raise RecognitionException
+        context = self._ctx
+        assert context is not None, "a rule is being read"
         context.children.append(index)
         if expected != EOF:
             stream.index = index + 1

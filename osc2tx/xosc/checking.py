@@ -152,6 +152,7 @@ def _of_names(node: Element, type_name: str, version: XmlVersion) -> Iterator[Pr
 
 
 def _of_texts(node: Element, type_name: str, version: XmlVersion) -> Iterator[Problem]:
+    """Yield what is wrong with the texts of the attributes that there are in a version."""
     known = element_type(type_name).attributes
     for name, text in node.attributes:
         part = known.get(name)

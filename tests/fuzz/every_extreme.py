@@ -20,6 +20,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT), str(ROOT / "runtime_lib")]
 
+from osc2tx.start import collect_rarely  # noqa: E402
 from tests.fuzz.extremes import SECONDS, Scenario, every, scenarios  # noqa: E402
 from tests.fuzz.oracle import Finding, try_text  # noqa: E402
 
@@ -54,7 +55,7 @@ def main() -> int:
     parser.add_argument("--part", type=int, default=0)
     options = parser.parse_args()
     gc.freeze()
-    gc.set_threshold(200_000, 30, 30)  # as the command has it
+    collect_rarely()  # as the command does
     findings: set[str] = set()
     count, longest, slowest = 0, 0.0, ""
     part = islice(texts(options.folder), options.part, None, options.parts)

@@ -44,6 +44,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT), str(ROOT / "runtime_lib")]
 
 from osc2tx.options import DIALECTS, STANDARDS, CompileOptions  # noqa: E402
+from osc2tx.start import collect_rarely  # noqa: E402
 from tests.fuzz.extremes import SECONDS, write_extreme  # noqa: E402
 from tests.fuzz.grammar import write_text  # noqa: E402
 from tests.fuzz.inputs import INPUTS  # noqa: E402
@@ -189,7 +190,7 @@ def main() -> int:
     end = time.monotonic() + options.seconds
     tried: Counter[str] = Counter()
     gc.freeze()
-    gc.set_threshold(200_000, 30, 30)  # as the command has it
+    collect_rarely()  # as the command does
     for case in cases(options.seed, makers, options.look):
         if time.monotonic() > end or tried.total() == options.count:
             break
