@@ -190,8 +190,13 @@ class Roads:
         return tuple(Waypoint(0.0, pose.x, pose.y, pose.z, pose.yaw) for pose in found)
 
 
+@refusing()
 def lane_from_edge(number: int, edge: str) -> Lane:
-    """Return the lane that is counted from an edge of the road."""
+    """Return the lane that is counted from an edge of the road.
+
+    Raises:
+        Inexpressible: There is no lane with such a number.
+    """
     return Lane(number, from_="right" if edge == "right" else "left")
 
 
