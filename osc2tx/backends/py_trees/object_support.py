@@ -9,6 +9,7 @@ from osc2tx.backends.py_trees.runtime_api import (
     ACTOR_CLASSES,
     STRUCT_CLASSES,
     constructor_path,
+    is_completed,
     list_element,
     nested_object,
 )
@@ -88,6 +89,10 @@ class ObjectCheck:
                     f"the runtime cannot fix `{'.'.join(value.path)}` of a `{object_.lineage[0]}`",
                     help="the runtime determines it: read it, or omit the constraint",
                 )
+        for name in dict.fromkeys(value.path[0] for value in object_.values if value.path[1:]):
+            inner = nested_object(object_.lineage, name)
+            if inner is not None and not is_completed(object_.lineage, name):
+                self._needed(object_.member(name, (inner,)), inner)
         if kind is not None and classes is STRUCT_CLASSES:
             self._needed(object_, kind)
 

@@ -190,6 +190,15 @@ def nested_object(lineage: Sequence[str], member: str) -> str | None:
     return next((type_ for type_ in found if type_ is not None), None)
 
 
+# Nested objects of which the actor knows what a scenario does not state.
+COMPLETED_MEMBERS = frozenset({("trailer", "coupler"), ("vehicle", "trailer_receiver")})
+
+
+def is_completed(lineage: Sequence[str], member: str) -> bool:
+    """Whether a member is a nested object of which a part may be stated."""
+    return any((type_, member) in COMPLETED_MEMBERS for type_ in lineage)
+
+
 def text_class(lineage: Sequence[str], member: str) -> str | None:
     """Return the class of the runtime for a text where the library has an enum."""
     found = (TEXTS.get((type_, member)) for type_ in lineage)
