@@ -40,6 +40,7 @@ class Composition(Node):
     _active: list[Member]  # the running ones, if several are
     _is_plain = True  # only the members decide its outcome
     _may_rest = True  # only they, and the time
+    _content_open = True  # before its setup nothing is known about the length of its members
 
     def setup(self, **kwargs: Any) -> None:
         """Take the context; determine what ends on its own. Members were set up before."""
