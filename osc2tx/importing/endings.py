@@ -19,6 +19,7 @@ from osc2tx.importing.statements import (
     composed,
     elapsed,
     ended,
+    seconds,
     wait,
 )
 from osc2tx.importing.steps import Branch
@@ -36,6 +37,12 @@ def is_open(statement: Statement) -> bool:
     if statement.does == "parallel":
         return all(is_open(each) for each in statement.members)
     return not statement.is_composed and statement.length == math.inf
+
+
+def is_over(statement: Statement, at: float | None) -> bool:
+    """Whether a statement is over before a time (s) after its start; `None`: not known."""
+    length = seconds([statement])
+    return length is not None and at is not None and length < at
 
 
 def label_of(statement: Statement) -> str:

@@ -16,7 +16,9 @@ from osc2tx.importing.dimensions import (
     SUM,
     TIME,
     Dimension,
+    Quantity,
     literal,
+    total,
 )
 from osc2tx.importing.place_conditions import COMPARISONS, PlaceConditions
 from osc2tx.importing.places import Places
@@ -226,11 +228,9 @@ class EntityConditions:
             node.leave_out("the distance leads beyond the first road; it is never met here")
             return None
         node.approximate("the distance travelled counts along the road from the start position")
-        start = literal(body.place.s, LENGTH)
-        reached = f"{a}.get_s_coord()"
-        if direction > 0:
-            return f"{reached} >= {start} + {value.within(SUM)}"
-        return f"{reached} <= {start} - {value.within(2)}"
+        start = Quantity("", body.place.s)
+        there = total(LENGTH, (1, start), (1 if direction > 0 else -1, value))
+        return f"{a}.get_s_coord() {'>=' if direction > 0 else '<='} {there.text}"
 
     def _collision(self, node: Node, a: str) -> str | None:
         by = node.inner

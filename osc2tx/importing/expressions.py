@@ -123,15 +123,22 @@ class _Parser:
 
 
 def _operation(sign: str, left: Expression, right: Expression) -> Expression:
-    """Return an operation, computed if both operands are numbers; `-1 * x` is `-x`."""
+    """Return an operation, computed if both operands are numbers; its sign comes first."""
     if isinstance(left, Number) and isinstance(right, Number):
         a, b = left.value, right.value
         if sign == "/" and b == 0.0:
             raise Untyped("division by zero")
         computed = {"+": a + b, "-": a - b, "*": a * b}.get(sign)
         return Number(a / b if computed is None else computed)
-    if sign == "*" and left == Number(-1.0):
-        return Operation("-", Number(0.0), right)
+    if sign in "*/":
+        bare_left, bare_right = (without_sign(each) or each for each in (left, right))
+        is_negative = (bare_left is left) != (bare_right is right)
+        found: Expression = Operation(sign, bare_left, bare_right)
+        if bare_right == Number(1.0):
+            found = bare_left
+        elif sign == "*" and bare_left == Number(1.0):
+            found = bare_right
+        return Operation("-", Number(0.0), found) if is_negative else found
     return Operation(sign, left, right)
 
 

@@ -14,8 +14,8 @@ def header_of(header: Node, name: str) -> list[str]:
     for licence in header.children("License"):
         named = licence.text("spdxId")
         if named:
-            licence.idle("its SPDX identifier says it", "name")
-        parts = [named or licence.text("name"), licence.text("resource")]
+            licence.idle("its SPDX identifier says it", "name", "resource")
+        parts = [named] if named else [licence.text("name"), licence.text("resource")]
         rights.append("licence: " + ", ".join(part for part in parts if part))
     held = "; ".join(rights)
     whole = f"{found.rstrip('.')} ({held})" if held else found

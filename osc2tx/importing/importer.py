@@ -40,6 +40,10 @@ from osc2tx.xosc.element import Unresolved
 from osc2tx.xosc.reader import Comment
 from osc2tx_shared.classes import dataclass
 
+LONG = 60
+"""Characters of a comment that says more than a title."""
+_ELEMENT = re.compile(r"\s*</?[A-Z]\w*[\s/>]")
+
 
 @dataclass(frozen=True, slots=True)
 class Imported:
@@ -149,9 +153,13 @@ class _Import:
         self._shared = Shared(libraries)
         self._cast = Cast(document, self._values, self._ledger, self._names, self._shared)
         self._marks = Marks(document, self._names, self._report)
+        self._told: set[str] = set()
         self._comments: dict[object, list[str]] = {}
         for comment in document.comments:
-            self._comments.setdefault(comment.within, []).append(comment.text)
+            if _ELEMENT.match(comment.text):
+                self._leave(comment.text, "it is a part of a document that is switched off")
+            else:
+                self._comments.setdefault(comment.within, []).append(comment.text)
 
     def run(self) -> Imported:
         """Import it."""
@@ -226,11 +234,20 @@ class _Import:
         return header_of(header, self._scenario) + self._comments.pop(None, [])
 
     def _comments_of(self, element: Element) -> list[str]:
-        """Return the comments in an element, each once."""
+        """Return the comments in an element, each once; a long one is only where it is first."""
         found = []
         for node in element.walk():
-            found += self._comments.pop(node.place, [])
+            for text in self._comments.pop(node.place, []):
+                if len(text) > LONG and text in self._told:
+                    self._leave(text, "it repeats another one")
+                else:
+                    found.append(text)
+        self._told.update(found)
         return found
+
+    def _leave(self, comment: str, reason: str) -> None:
+        """Note that the scenario does not have a comment."""
+        self._report.idle.append(("comment", comment, reason, ""))
 
     def _find_used(self, program: Program, places: Places, structure: Structure) -> None:
         """Note which parameters the scenario reads, itself or in what gives others."""
@@ -295,9 +312,7 @@ class _Import:
         self._report.problems = list(dict.fromkeys(found))
         rest = [text for place, texts in self._comments.items() for text in texts]
         for text in rest:
-            self._report.idle.append(
-                ("comment", text, "it belongs to nothing that is imported", "")
-            )
+            self._leave(text, "it belongs to nothing that is imported")
         self._ledger.close()
 
 

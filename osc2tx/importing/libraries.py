@@ -45,7 +45,6 @@ class Library:
         """The text of the file."""
         lines = [
             "import osc.standard.all",
-            "",
             f"namespace {self.name} use std, stdtypes",
             "",
             f"export {', '.join(self.lines)}",

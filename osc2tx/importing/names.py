@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections import Counter
+from collections.abc import Iterable, Sequence
 from functools import cache
 
 from osc2tx.importing.report import ImportReport
@@ -26,6 +27,10 @@ _WORDS = (
 )
 KINDS = ("event", "action", "maneuver", "act", "story", "group", "sequence")
 """Last words of names that only say what an element is."""
+LONGEST = 32
+"""Characters of a name that does not make lines long."""
+_SYMBOL = re.compile(r"[a-z]{1,2}\d|[adv][xy]")
+_NEEDLESS = ("init", "initial", "position")
 
 
 def snake(name: str) -> str:
@@ -41,6 +46,34 @@ def short(name: str) -> str:
     while len(words) > 1 and words[-1] in KINDS:
         words.pop()
     return "_".join(words)
+
+
+def shortened(names: Sequence[str], actors: Iterable[str]) -> list[str]:
+    """Return names of parameters, long ones without words that the others do not need.
+
+    These are symbols at the end (`Ve0`), words that hold for most of them, then the actor.
+
+    Args:
+        names: The names.
+        actors: Names of actors, with which those of parameters may begin.
+    """
+    known = sorted(actors, key=len, reverse=True)
+    found = [_shortened(each, known) for each in names]
+    counts = Counter((*found, *known))
+    return [short if counts[short] == 1 else name for name, short in zip(names, found, strict=True)]
+
+
+def _shortened(name: str, actors: Sequence[str]) -> str:
+    if len(name) <= LONGEST:
+        return name
+    words = name.split("_")
+    while len(words) > 1 and _SYMBOL.fullmatch(words[-1]):
+        words.pop()
+    found = "_".join(each for each in words[:-1] if each not in _NEEDLESS) + f"_{words[-1]}"
+    if len(found) > LONGEST:
+        actor = next((each for each in actors if found.startswith(f"{each}_")), None)
+        found = found if actor is None else found.removeprefix(f"{actor}_")
+    return found.lstrip("_")
 
 
 @cache

@@ -7,7 +7,15 @@ from collections.abc import Iterator
 
 from osc2tx.importing.cast import Actor
 from osc2tx.importing.cursor import Node
-from osc2tx.importing.dimensions import LENGTH, PRODUCT, SPEED, TIME, literal
+from osc2tx.importing.dimensions import (
+    LENGTH,
+    PRODUCT,
+    SPEED,
+    TIME,
+    Quantity,
+    literal,
+    total,
+)
 from osc2tx.importing.effects import LATERAL, PROFILES, Effect, Reader, of_dynamics
 from osc2tx.importing.statements import Statement, call
 from osc2tx.xosc.element import Unresolved
@@ -162,13 +170,10 @@ class Offsets(Reader):
     def _lane_offset(self, node: Node, said: str, actor: Actor) -> Statement | None:
         target = node.one("LaneOffsetTarget").inner
         offset = self._values.quantity(target, "value", LENGTH)
-        text = offset.text if self._along(said) > 0 else f"-{offset.within(PRODUCT)}"
         beside = 0.0
         if target.tag == "RelativeTargetLaneOffset":
             reference = self._values.text(target, "entityRef")
             beside = self._offset_of(reference)
-            if beside:
-                text = f"{text} + {literal(round(beside, 6), LENGTH)}"
             target.approximate(f"the offset of {reference} is the one that it was given last")
         dynamics = node.one("LaneOffsetActionDynamics")
         shape = dynamics.text("dynamicsShape") or "step"
@@ -185,6 +190,7 @@ class Offsets(Reader):
             time = 1.0
         elif offset.is_open:
             node.approximate("the change takes as long as that of the nominal values")
+        text = total(LENGTH, (self._along(said), offset), (1, Quantity("", round(beside, 6)))).text
         arguments = {"offset": text, "rate_profile": PROFILES.get(shape, "smooth")}
         if change > 0.0:
             fastest = change / time * (1.0 if shape == "linear" else 0.5 * math.pi)

@@ -24,8 +24,11 @@ from osc2tx.importing.expressions import (
     without_sign,
 )
 from osc2tx.importing.inference import Votes, uses_in, vote
-from osc2tx.importing.names import Names, snake
+from osc2tx.importing.names import Names, shortened, snake
+from osc2tx.xosc import Element
 from osc2tx_shared.classes import dataclass
+
+_UNIT = re.compile(r"_(kph|mps|mps2|mpss|m|s|deg|rad|kmh)$")
 
 
 @dataclass
@@ -75,19 +78,29 @@ class Parameters:
         self._find_aliases()
 
     def _declare(self, names: Names) -> None:
-        for node in self._document.root.children:
-            for each in node.children if node.tag == "ParameterDeclarations" else ():
-                said = each.get("name") or ""
-                kind = (each.get("parameterType") or "").lower()
-                expression = None
-                if kind in ("double", "int", "integer", "unsignedint", "unsignedshort"):
-                    try:
-                        expression = parsed(each.get("value") or "")
-                    except Untyped:
-                        expression = None
-                base = snake(re.sub(r"_(kph|mps|mps2|mpss|m|s|deg|rad|kmh)$", "", said))
-                name = names.new(said, kind="parameter", base=base)
-                self.by_name[said] = Parameter(name, kind, expression=expression)
+        declared = self._declarations
+        actors = (snake(each.get("name") or "") for each in self._document.tagged("ScenarioObject"))
+        bases = [snake(_UNIT.sub("", each.get("name") or "")) for each in declared]
+        for each, base in zip(declared, shortened(bases, actors), strict=True):
+            said = each.get("name") or ""
+            kind = (each.get("parameterType") or "").lower()
+            expression = None
+            if kind in ("double", "int", "integer", "unsignedint", "unsignedshort"):
+                try:
+                    expression = parsed(each.get("value") or "")
+                except Untyped:
+                    expression = None
+            name = names.new(said, kind="parameter", base=base)
+            self.by_name[said] = Parameter(name, kind, expression=expression)
+
+    @property
+    def _declarations(self) -> list[Element]:
+        holders = self._document.root.children
+        return [
+            each
+            for holder in holders
+            for each in (holder.children if holder.tag == "ParameterDeclarations" else ())
+        ]
 
     # --- inference --------------------------------------------------------------------------------
 
@@ -112,22 +125,19 @@ class Parameters:
 
     def _find_aliases(self) -> None:
         """Find the parameters that only say others once more, in another unit or with a sign."""
-        declared = {
-            each.get("name") or "": each
-            for node in self._document.root.children
-            for each in (node.children if node.tag == "ParameterDeclarations" else ())
-        }
+        declared = {each.get("name") or "": each for each in self._declarations}
         for said, parameter in self.by_name.items():
             node = parameter.expression
             if said in self._open or node is None or declared[said].children:
                 continue
             node = substituted(node, self.aliases)
-            inner = node.left if is_per_hour(node) and isinstance(node, Operation) else node
-            inner = without_sign(inner) or inner
+            bare = without_sign(node) or node
+            is_hourly = is_per_hour(bare)
+            inner = bare.left if is_hourly and isinstance(bare, Operation) else bare
             other = self.by_name.get(inner.name) if isinstance(inner, Name) else None
             if other is None or other.kind != parameter.kind:
                 continue
-            if parameter.dimension == other.dimension and other.is_hourly == is_per_hour(node):
+            if parameter.dimension == other.dimension and other.is_hourly == is_hourly:
                 self.aliases[said] = node
         for parameter in self.by_name.values():
             if parameter.expression is not None:

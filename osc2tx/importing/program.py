@@ -46,8 +46,10 @@ class Declared:
         """Its lines, with its comments: behind it if they fit there, else above it."""
         head, *constraints = self._declaration()
         told = list(comment_lines(self.comments))
-        if len(told) == 1 and len(beside := f"{head}  {told[0]}") <= LINE - len(INDENT):
-            return [beside, *constraints]
+        begin, end = [head, *constraints][: len(told)], [head, *constraints][len(told) :]
+        beside = [f"{line}  {comment}" for line, comment in zip(begin, told, strict=False)]
+        if len(told) <= len(begin) and all(len(each) <= LINE - len(INDENT) for each in beside):
+            return [*beside, *end]
         return [*told, head, *constraints]
 
     def _declaration(self) -> list[str]:
@@ -134,13 +136,12 @@ class Program:
         lines = [
             *comment_lines(self.header, 0),
             *(f"import {name}" for name in imported or ["osc.standard.all"]),
-            "",
         ]
         if self.members or self.body is not None:
-            lines += [f"namespace null use {', '.join(('std', 'stdtypes', *self.imports))}", ""]
+            lines.append(f"namespace null use {', '.join(('std', 'stdtypes', *self.imports))}")
         inherits = f" inherits {self.base}" if self.base else ""
         is_empty = not (self.members or self.parameters or self.body)
-        lines += [self.remark] if self.remark else []
+        lines += ["", self.remark] if self.remark else [""]
         lines.append(f"scenario {self.name}{inherits}{'' if is_empty else ':'}")
         parts = [together(self.members), self.parameters]
         for part in filter(None, parts):
@@ -150,11 +151,12 @@ class Program:
 
 
 def keeps(constraints: Sequence[str]) -> list[str]:
-    """Return constraints, several on a line where they fit."""
+    """Return constraints, several on a line where they fit; a choice is on a line of its own."""
     found: list[str] = []
     for each in constraints:
         joined = f"{found[-1]} and {each}" if found else each
-        if found and len(joined) <= KEPT and " or " not in joined:
+        is_plain = " or " not in joined and " in [" not in joined
+        if found and len(joined) <= KEPT and is_plain:
             found[-1] = joined
         else:
             found.append(each)

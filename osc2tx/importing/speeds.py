@@ -13,7 +13,6 @@ from osc2tx.importing.dimensions import (
     NUMBER,
     PRODUCT,
     SPEED,
-    SUM,
     TIME,
     Quantity,
     literal,
@@ -137,7 +136,7 @@ class Speeds(Reader):
         known = self._speeds.get(reference_said) if at_start else None
         now = self._speeds.get(reference_said)
         nominal = now.value if now is not None else 0.0
-        base = known.within(SUM) if known is not None else f"{reference.name}.speed"
+        base = f"{reference.name}.speed"
         if (node.text("speedTargetValueType") or "delta") == "factor":
             factor = self._values.quantity(node, "value", NUMBER)
             base = known.within(PRODUCT) if known is not None else base
@@ -145,13 +144,8 @@ class Speeds(Reader):
                 f"{factor.within(PRODUCT)} * {base}", factor.value * nominal, True, PRODUCT
             )
         delta = self._values.quantity(node, "value", SPEED)
-        if not delta.is_open and delta.value == 0.0:
-            return Quantity(base, nominal, True, SUM)
-        if not delta.is_open and delta.value < 0.0:
-            return Quantity(
-                f"{base} - {literal(-delta.value, SPEED)}", nominal + delta.value, True, SUM
-            )
-        return Quantity(f"{base} + {delta.within(SUM)}", nominal + delta.value, True, SUM)
+        found = known if known is not None else Quantity(base, nominal, True)
+        return total(SPEED, (1, found), (1, delta))
 
     def _as_fast_as(self, node: Node, target: Node, dynamics: Node, actor: Actor) -> Statement:
         """Return a speed that is kept against that of another actor."""

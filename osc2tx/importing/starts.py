@@ -88,9 +88,15 @@ class Starts:
                 if effect.slots == {LATERAL} and effect.statement.length is None:
                     self._paths[said] = effect.statement
                 elif verb == "assign_speed":
-                    self._speeds[said] = effect.statement
+                    self._set_speed(said, effect.statement)
                 else:
                     self._others.setdefault(said, []).append(effect.statement)
+
+    def _set_speed(self, said: str, statement: Statement) -> None:
+        """Note the speed of an entity; it is at rest by itself."""
+        self._speeds.pop(said, None)
+        if [each.get("") for each in statement.calls] != ["0mps"]:
+            self._speeds[said] = statement
 
     def _begin_on(self, node: Node, said: str, places: Places) -> None:
         """Forget where an entity is put that a trajectory puts elsewhere at once."""

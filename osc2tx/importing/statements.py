@@ -18,6 +18,8 @@ Kind: TypeAlias = Literal["serial", "parallel", "one_of"]
 INDENT = "    "
 LINE = 100
 """Characters of a line."""
+NARROW = 60
+"""Characters of the lines of a narrow text."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,6 +102,7 @@ class Statement:
         members: Members of a composition; none of others.
         comments: Lines above it.
         length: Seconds that it takes, if that is known; `inf`: it ends with what is around it.
+        duration: The time that a composition lasts; `""`: that is not said.
     """
 
     does: Call | Emit | When | Kind
@@ -109,6 +112,7 @@ class Statement:
     members: Sequence[Statement] = ()
     comments: list[str] = field(default_factory=list)
     length: float | None = None
+    duration: str = ""
 
     @property
     def text(self) -> str:
@@ -121,7 +125,7 @@ class Statement:
             case When():
                 return f"wait {self.does.text}"
             case kind:
-                return kind
+                return f"{kind}(duration: {self.duration})" if self.duration else kind
 
     @property
     def is_composed(self) -> bool:
@@ -130,8 +134,8 @@ class Statement:
 
     @property
     def is_qualified(self) -> bool:
-        """Whether something stands below `with:`."""
-        return bool(self.modifiers or self.until)
+        """Whether something stands below `with:`, or it lasts a time."""
+        return bool(self.modifiers or self.until or self.duration)
 
     @property
     def calls(self) -> Iterator[Call]:
@@ -157,7 +161,7 @@ class Statement:
             yield f"{margin}{head}:"
             for member in self.members:
                 yield from member.lines(indent + 1)
-            if self.is_qualified:
+            if self.modifiers or self.until:
                 yield f"{margin}with:"
         else:
             yield f"{margin}{head} with:" if self.is_qualified else f"{margin}{head}"
@@ -190,7 +194,7 @@ def composed(kind: Kind, members: Sequence[Statement]) -> Statement:
     return Statement(kind, members=flat, length=_length(kind, flat))
 
 
-def _keeps_speed(statement: Statement) -> bool:
+def keeps_speed(statement: Statement) -> bool:
     """Whether an actor holds its speed until something else ends that."""
     does = statement.does
     return isinstance(does, Call) and (does.action, does.arguments) == ("keep_speed", ())
@@ -200,7 +204,7 @@ def _goes_on_as(statement: Statement, following: Statement | None) -> bool:
     """Whether an actor that keeps its speed for a time goes on with that, without an end."""
     if statement.label or statement.is_qualified or statement.comments or following is None:
         return False
-    if following.label or not _keeps_speed(following) or not isinstance(following.does, Call):
+    if following.label or not keeps_speed(following) or not isinstance(following.does, Call):
         return False
     does = statement.does
     if not isinstance(does, Call) or [name for name, _ in does.arguments] != ["duration"]:
@@ -248,7 +252,7 @@ def settled(members: Sequence[Statement]) -> list[Statement]:
 
 def ended(statement: Statement, by: When) -> Statement:
     """Return something that never ends by itself up to an end."""
-    if by.time and _keeps_speed(statement) and isinstance(statement.does, Call):
+    if by.time and keeps_speed(statement) and isinstance(statement.does, Call):
         timed = replace(statement.does, arguments=(("duration", by.time),))
         return replace(statement, does=timed, length=None)
     return replace(statement, until=[*statement.until, by], length=None)
@@ -299,5 +303,18 @@ def comment_lines(comments: Iterable[str], indent: int = 1) -> Iterator[str]:
     for comment in comments:
         lines = [" ".join(line.split()) for line in comment.splitlines()]
         if any(len(line) > width for line in lines):
-            lines = wrap(" ".join(lines), width, break_on_hyphens=False)
-        yield from (f"# {line}" for line in lines if line)
+            lines = [" ".join(lines)]
+        for line in _unbroken(lines):
+            yield from (f"# {part}" for part in wrap(line, width, break_on_hyphens=False))
+
+
+def _unbroken(lines: Iterable[str]) -> Iterator[str]:
+    """Yield lines, with those as one that only break because a text is narrow."""
+    before = ""
+    for line in lines:
+        if len(before) >= NARROW and line[:1].islower():
+            before = f"{before} {line}"
+        else:
+            yield before
+            before = line
+    yield before

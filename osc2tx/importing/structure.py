@@ -30,6 +30,8 @@ from osc2tx.importing.statements import Emit, Statement, When, composed, elapsed
 from osc2tx.importing.steps import ENDS, Block, Board, Branch, Step
 from osc2tx.importing.waiting import Waiting, lateness, minus, nominal_start, start_of
 
+AT_ONCE = elapsed("0s")
+
 
 class Structure:
     """Finds the order of the events of a storyboard.
@@ -187,9 +189,10 @@ class Structure:
         behind = self._predecessor.get(step)
         if behind is not None and replaces_at_once(step, behind):
             return []
-        if behind is not None and not event.is_immediate:
-            return self.waits(event, behind)
-        return self.waits(act, behind) + self.waits(event, behind)
+        found = self.waits(event, behind)
+        if behind is None or event.is_immediate:
+            found = self.waits(act, behind) + found
+        return [each for each in found if each.does != AT_ONCE]
 
     @property
     def events(self) -> list[Step]:

@@ -5,7 +5,7 @@ A parameter with several dimensions is a plain number, which gets its unit where
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from math import isfinite
 
 from osc2tx.importing.cursor import Node
@@ -21,6 +21,7 @@ from osc2tx.importing.dimensions import (
     Quantity,
     literal,
     short,
+    total,
 )
 from osc2tx.importing.distributions import Open
 from osc2tx.importing.document import Document
@@ -40,6 +41,7 @@ from osc2tx.importing.names import Names
 from osc2tx.importing.parameters import Parameter, Parameters
 from osc2tx.importing.substitution import read_in
 from osc2tx.xosc.element import Unresolved
+from osc2tx_shared.classes import replace
 
 
 class Values:
@@ -192,11 +194,29 @@ class Values:
                 return Quantity(
                     f"-{self._written(node.right, wanted).within(PRODUCT)}", 0.0, True, PRODUCT
                 )
-            positive = without_sign(node.right)
-            sign = node.sign if positive is None else "-" if node.sign == "+" else "+"
-            right = self._written(node.right if positive is None else positive, wanted)
-            return _joined(self._written(node.left, wanted), sign, right, SUM)
+            return total(wanted, *self._summands(node, 1, wanted))
         return self._scaled(node, wanted)
+
+    def _summands(
+        self, node: Expression, sign: int, wanted: Dimension
+    ) -> Iterator[tuple[int, Quantity]]:
+        """Yield what a sum adds up, with signs."""
+        bare = without_sign(node)
+        if bare is not None:
+            yield from self._summands(bare, -sign, wanted)
+        elif isinstance(node, Number):
+            yield sign, Quantity(literal(node.value, wanted), node.value)
+        elif isinstance(node, Operation) and node.sign in "+-":
+            yield from self._summands(node.left, sign, wanted)
+            if node.sign == "+" or not isinstance(node.right, Operation):
+                yield from self._summands(
+                    node.right, sign * (1 if node.sign == "+" else -1), wanted
+                )
+            else:  # stays in its brackets
+                yield -sign, replace(self._written(node.right, wanted), is_open=True)
+        else:
+            found = self._written(node, wanted)
+            yield sign, Quantity(found.text, 0.0, True, found.binding)
 
     def _named(self, node: Name, wanted: Dimension) -> Quantity:
         parameter = self.parameters.get(node.name)

@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 
 from osc2tx.importing.conditions import Condition, Trigger
-from osc2tx.importing.dimensions import PRODUCT, TIME, Quantity, literal, total
+from osc2tx.importing.dimensions import TIME, Quantity, literal, total
 from osc2tx.importing.expressions import joined_by
 from osc2tx.importing.program import EVENT, Declared
 from osc2tx.importing.statements import Statement, When, composed, elapsed, happens, wait
@@ -78,8 +78,9 @@ class Waiting:
         elif times:
             latest = max(times, key=_nominal)
             # what counts later is looked at so much earlier
-            text = _time_of(latest) if late == 0.0 else _earlier(_time_of(latest), latest, late)
-            found += [] if text is None else [wait(elapsed(text))]
+            time = _time_of(latest).text
+            left = time if late == 0.0 else _earlier(time, latest, late)
+            found += [] if left is None else [wait(elapsed(left))]
         found += self._happened(happenings, behind, late)
         if len(edges) == 1 and not levels:
             found.append(wait(When(_edge(edges[0]))))
@@ -177,7 +178,7 @@ def start_of(step: Step) -> Quantity | None:
         condition = trigger.groups[0][0]
         if condition.kind != "time" or condition.quantity is None:
             return None
-        time = Quantity(_time_of(condition), _nominal(condition), condition.quantity.is_open, 1)
+        time = _time_of(condition)
         time = time if trigger.after is None else total(TIME, (1, time), (1, trigger.after))
         found = max(found, time, key=lambda each: each.value)
     return found
@@ -197,21 +198,16 @@ def _nominal(condition: Condition) -> float:
     )
 
 
-def _time_of(condition: Condition) -> str:
+def _time_of(condition: Condition) -> Quantity:
     assert condition.quantity is not None
     if condition.delay is None:
-        return condition.quantity.text
-    if not condition.quantity.is_open and not condition.delay.is_open:
-        return literal(_nominal(condition), TIME)
-    return f"{condition.quantity.text} + {condition.delay.text}"
+        return condition.quantity
+    return total(TIME, (1, condition.quantity), (1, condition.delay))
 
 
 def minus(later: Quantity, earlier: Quantity) -> Quantity:
     """Return the time between two times."""
-    value = later.value - earlier.value
-    if later.is_open or earlier.is_open:
-        return Quantity(f"{later.text} - {earlier.within(PRODUCT)}", value, True, 1)
-    return Quantity(literal(round(value, 9), TIME), value)
+    return total(TIME, (1, later), (-1, earlier))
 
 
 def _edge(condition: Condition) -> str:

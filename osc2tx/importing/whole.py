@@ -16,6 +16,7 @@ from osc2tx.importing.endings import (
     go_on_behind,
     held_for,
     is_open,
+    is_over,
     without_events,
 )
 from osc2tx.importing.names import Names
@@ -34,6 +35,7 @@ from osc2tx.importing.statements import (
 )
 from osc2tx.importing.steps import Branch
 from osc2tx.importing.structure import Structure
+from osc2tx.importing.wording import worded
 
 LONGEST = "60s"
 """How long a scenario runs whose document has no end."""
@@ -55,7 +57,8 @@ class Whole:
         begun = [*members.begin(), *inits.ways()]
         course = self._composed(structure, begun, members, endings)
         kept = {label for label, count in structure.references.items() if count > 0}
-        return without_labels(composed("serial", [*members.leading, *course]), kept)
+        told = without_labels(composed("serial", [*members.leading, *course]), kept)
+        return worded(told)
 
     def _endings(self, structure: Structure, end: Trigger) -> list[Waits]:
         """Return what ends the scenario, each way of it as what is waited for."""
@@ -82,7 +85,9 @@ class Whole:
         branches = [each for each in members.branches if members.content(each)]
         if not begun and not branches:
             return waits
-        lasting = {id(each): members.lasting(each, seconds(waits)) for each in branches}
+        end = seconds(waits)
+        lasting = {id(each): members.lasting(each, end) for each in branches}
+        is_kept = all(is_open(each) or is_over(each, end) for each in begun)
         for branch in branches if all(map(is_open, begun)) else ():
             rest = ends_with(branch, waits)
             if rest is None:
@@ -94,7 +99,7 @@ class Whole:
                 side_by_side = [*begun, *filter(None, lasting.values())]
                 return [composed("parallel", side_by_side)]
         side_by_side = [*begun, *(each for each in lasting.values() if each is not None)]
-        if all(map(is_open, begun)) and None not in lasting.values():
+        if is_kept and None not in lasting.values():
             return [composed("parallel", [*side_by_side, composed("serial", waits)])]
         done = [members.done(each) for each in branches]
         return [self._until(structure, [*begun, *filter(None, done)], endings)]
@@ -232,8 +237,7 @@ class _Members:
         found = self.done(branch)
         if found is None or is_open(found):
             return found
-        length = seconds([found])
-        if length is not None and up_to is not None and length < up_to:
+        if is_over(found, up_to):
             return found
         vehicles = {each.name for each in self._actors.values() if each.kind == "vehicle"}
         last = go_on_behind(branch, self.branches, vehicles)

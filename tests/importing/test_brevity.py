@@ -49,7 +49,7 @@ def test_an_event_that_only_the_end_waits_for_is_its_condition() -> None:
     assert "emit" not in found.text
     assert "event" not in found.text
     waits = [line for line in lines(found.text) if line.startswith("wait")]
-    assert waits[-3:] == ["wait other.speed > 18mps", "wait elapsed(1.5s)", "wait elapsed(1s)"]
+    assert waits[-2:] == ["wait other.speed > 18mps", "wait elapsed(2.5s)"]
     assert faults(found) == []
     assert apart(found) < 0.1
 

@@ -139,7 +139,7 @@ def test_a_teleport_ends_the_trajectory_before_it_and_a_way_driven_backwards_cou
     first = '<Private entityRef="ego">'
     found = imported(text.replace(first, first + BACKWARDS))
     assert "replay_path" not in found.text
-    assert "wait ego.get_s_coord() <= 100m - 12m" in found.text
+    assert "wait ego.get_s_coord() <= 88m" in found.text
     assert apart(found) < 0.1
 
 

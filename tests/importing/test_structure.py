@@ -183,5 +183,5 @@ def test_a_parameter_that_is_set_in_the_run_is_an_event() -> None:
 def test_the_end_of_being_earlier_is_a_time() -> None:
     ending = at_time("4").replace("greaterOrEqual", "lessThan").replace("none", "falling")
     found = imported(document("", end=ending))
-    assert "wait elapsed(4s)" in found.text
+    assert "parallel(duration: 4s):" in found.text
     assert apart(found) < 0.1
