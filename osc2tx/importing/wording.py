@@ -11,7 +11,7 @@ import re
 from collections.abc import Sequence
 
 from osc2tx.importing.dimensions import TIME, literal
-from osc2tx.importing.endings import is_open, is_over
+from osc2tx.importing.endings import is_open
 from osc2tx.importing.statements import (
     Call,
     Statement,
@@ -32,9 +32,17 @@ def worded(statement: Statement) -> Statement:
         return statement
     members = [worded(each) for each in statement.members]
     if statement.does == "serial":
-        members = _without_repetition(_with_sums(members))
+        members = _without_repetition(_with_sums(_flat(members)))
     found = replace(statement, members=members)
     return _with_duration(found) if statement.does == "parallel" else found
+
+
+def _flat(members: Sequence[Statement]) -> list[Statement]:
+    """Return members of a `serial`, with those of plain ones in it."""
+    parts = (
+        [*each.members] if each.does == "serial" and _is_plain(each) else [each] for each in members
+    )
+    return [each for part in parts for each in part]
 
 
 def _time(statement: Statement) -> str:
@@ -91,24 +99,44 @@ def _is_plain(statement: Statement) -> bool:
 
 
 def _with_duration(statement: Statement) -> Statement:
-    """Return a `parallel`, a wait in which is the time that the other members go on for."""
+    """Return a `parallel`, a wait in which is the time that other actions go on for."""
     times = [each for each in statement.members if _time(each) and not each.comments]
-    others = [_endless(each) for each in statement.members if each not in times]
-    if len(times) != 1 or statement.duration or not any(map(is_open, others)):
+    others = [each for each in statement.members if each not in times]
+    if len(times) != 1 or statement.label or statement.is_qualified:
         return statement
-    time, end = _time(times[0]), seconds(times)
-    if not all(is_open(now) or is_over(now, end) for now in others):
+    time = _time(times[0])
+    if len(others) == 1 and others[0].does == "serial":
+        only = _filled(others[0], seconds(times))
+        return statement if only is None else _beneath(statement, only)
+    if not all(isinstance(each.does, Call) and is_open(each) for each in others):
         return statement
     if len(others) > 1:
         return replace(statement, members=others, duration=time)
-    only = others[0]
-    if statement.label or statement.is_qualified:
-        return statement
-    if isinstance(only.does, Call):
-        told = replace(only.does, arguments=(*only.does.arguments, ("duration", time)))
-        only = replace(only, does=told, length=None)
-    elif only.does in ("serial", "parallel") and not only.duration:
-        only = replace(only, duration=time, length=None)
-    else:
-        return statement
+    return _beneath(statement, _lasting(others[0], time))
+
+
+def _beneath(statement: Statement, only: Statement) -> Statement:
+    """Return what stands for a composition."""
     return replace(only, comments=[*statement.comments, *only.comments])
+
+
+def _lasting(statement: Statement, time: str) -> Statement:
+    """Return an invocation that has no end as one for a time."""
+    assert isinstance(statement.does, Call)
+    told = replace(statement.does, arguments=(*statement.does.arguments, ("duration", time)))
+    return replace(statement, does=told, length=None)
+
+
+def _filled(statement: Statement, end: float | None) -> Statement | None:
+    """Return a `serial` that lasts up to a time (s) after its start; `None`: not known."""
+    *rest, last = statement.members
+    goes_on = is_open(last)
+    length = seconds(rest if goes_on else statement.members)
+    if not _is_plain(statement) or end is None or length is None or length >= end:
+        return None
+    left = literal(round(end - length, 9), TIME)
+    if not goes_on:
+        return replace(statement, members=[*statement.members, wait(elapsed(left))])
+    if not isinstance(last.does, Call) or last.label:
+        return None
+    return replace(statement, members=[*rest, _lasting(last, left)], length=None)
