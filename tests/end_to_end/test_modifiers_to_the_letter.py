@@ -263,6 +263,13 @@ CASES = {
         "either",
         lambda t: within([(b - a) / DT for a, b in pairwise(t.all("v"))], -4.0, -4.0),
     ),
+    "acceleration beyond a speed at the end": Case(
+        DRIVE + "acceleration(2mpss); speed(12mps, at: end)", *("warns", never)
+    ),
+    "accelerations of a range beyond a speed at the end": Case(
+        DRIVE + "acceleration(acceleration_range: [1mpss..3mpss]); speed(12mps, at: end)",
+        *("warns", never),
+    ),
     # 8.9.8 lateral()
     "to the left": Case(
         DRIVE + "lateral(0.5m, side: left, at: end)",

@@ -15,6 +15,7 @@ from osc2tx.analysis.constraints.parameter_lookup import Place
 from osc2tx.analysis.tree_walk import children_of
 from osc2tx.diagnostics import Span
 from osc2tx.semantics import SemanticModel, types
+from osc2tx.semantics import symbols as sym
 from osc2tx.syntax import ast
 from osc2tx_shared.classes import dataclass
 
@@ -112,6 +113,9 @@ class ConstraintWriter:
         if isinstance(expression, ast.Binary) and expression.operator in (Op.EQUAL, Op.IN):
             subject = place.locate(expression.left)
             value = expression.right if subject is not None else None
+            handed_in = place.locate(expression.right)
+            if expression.operator is Op.EQUAL and _is_actor_of_invocation(handed_in):
+                subject, value = handed_in, expression.left  # the invocation takes it
         yield Constraint(
             node=rule,
             span=expression.span,
@@ -144,6 +148,15 @@ class ConstraintWriter:
                 operations=operations,
                 place=place,
             )
+
+
+def _is_actor_of_invocation(key: Key | None) -> bool:
+    return (
+        key is not None
+        and isinstance(key[0], ast.Invocation)
+        and isinstance(key[-1], sym.FieldSymbol)
+        and isinstance(key[-1].type, types.ActorType)
+    )
 
 
 def _certain_elements(condition: ast.Expression) -> Iterator[ast.Index]:

@@ -55,8 +55,19 @@ class Place:
             path.append(symbol)
             current = current.base
         root = self._root(current)
+        if root and path and is_actor(path[-1]):
+            receiver = self._receiver(root[-1])
+            if receiver is not None:
+                root = receiver
+                path.pop()
         key = () if root is None else (*root, *reversed(path))
         return self.owned(key) or None  # the instance as a whole is no parameter of it
+
+    def _receiver(self, node: sym.Symbol | ast.Node) -> Key | None:
+        """Return the actor of an invocation: that of its receiver."""
+        binding = self.model.bindings.get(node) if isinstance(node, ast.Invocation) else None
+        receiver = None if binding is None else binding.receiver
+        return None if receiver is None else self.locate(receiver)
 
     def owned(self, key: Key) -> Key:
         """Return a path below a parameter as a path below its passed object."""
@@ -83,6 +94,11 @@ class Place:
         if self.it is not None and self.it_type and is_subtype(self.it_type, symbol.owner):
             return (*self.it, symbol)
         return None
+
+
+def is_actor(field: sym.Symbol) -> bool:
+    """Whether a field is the implicit one of a behavior, its actor."""
+    return isinstance(field, sym.FieldSymbol) and field.node is None and field.name == "actor"
 
 
 def name_of(key: Key) -> str:

@@ -5,7 +5,8 @@ A member that ends by itself, or with an `until`, has its own duration, which a 
 
 from __future__ import annotations
 
-from typing import TypeVar
+from collections.abc import Sequence
+from typing import TypeGuard, TypeVar
 
 from osc2tx import ir
 from osc2tx.analysis import single_value
@@ -19,6 +20,7 @@ from osc2tx.semantics.builtins import DURATION
 from osc2tx.syntax import ast
 from osc2tx_shared.classes import replace
 
+CompositionT = TypeVar("CompositionT", ir.Serial, ir.Parallel, ir.OneOf)
 Member = TypeVar("Member", bound=ir.Serial | ir.OneOf | ir.Parallel | ir.Invoke)
 
 
@@ -88,6 +90,50 @@ def is_free(node: ir.Behavior) -> bool:
         and not node.modifiers
         and not any(argument.parameter.startswith("rate_") for argument in node.arguments)
     )
+
+
+UNTIMED = frozenset(
+    {
+        "avoid_collisions",
+        "change_lane",
+        "change_speed",
+        "keep_lane",
+        "keep_speed",
+        "lane",
+        "lateral",
+        "physical_movement",
+        "speed",
+    }
+)
+"""Modifiers that together do not state how long an action takes; with a shape they do."""
+
+
+def with_elastic(
+    node: CompositionT, members: Sequence[ir.Behavior], duration: ir.Expression
+) -> CompositionT:
+    """Return a composition; those of some members that take any duration have the given one."""
+    timed = tuple(
+        replace(member, duration=duration) if member in members and is_elastic(member) else member
+        for member in node.members
+    )
+    return node if timed == node.members else replace(node, members=timed)
+
+
+def is_elastic(node: ir.Behavior) -> TypeGuard[ir.Invoke]:
+    """Return whether a member is an action that reaches its goal in whatever time it has.
+
+    It has no duration, and nothing in it states how fast the goal is reached.
+    """
+    if not isinstance(node, ir.Invoke) or _is_bounded(node):
+        return False
+    return is_free(node) or (
+        _ends(node) == "open" and _has_goal(node) and all(map(_leaves_time, node.modifiers))
+    )
+
+
+def _leaves_time(call: ir.ModifierCall) -> bool:
+    is_shaped = any(argument.parameter == "shape" for argument in call.arguments)
+    return call.at == "start" or (call.name in UNTIMED and not is_shaped)
 
 
 def _ends(node: ir.Invoke) -> str:

@@ -18,6 +18,8 @@ from osc2tx.lowering.behavior.time_expressions import (
     Terms,
     Times,
     about,
+    at_least,
+    at_most,
     ends_of,
     greater_of,
     is_range,
@@ -31,12 +33,8 @@ from osc2tx.lowering.behavior.time_expressions import (
     time_like,
 )
 from osc2tx.lowering.context import LoweringContext
-from osc2tx.lowering.value_types import BOOL, lower_type
-from osc2tx.semantics import types
-from osc2tx.semantics.builtins import TIME
+from osc2tx.lowering.value_types import BOOL
 from osc2tx_shared.classes import dataclass, replace
-
-TIMES = lower_type(types.RangeType(TIME))
 
 
 def _binary(span: Span, operator: str, one: ir.Expression, other: ir.Expression) -> ir.Binary:
@@ -65,6 +63,9 @@ class TimeEquations:
             return
         self._narrow(terms, whole)
         if is_range(whole):
+            if terms and isinstance(whole, ir.HalfRange):
+                bound_of = at_most if whole.is_lower else at_least
+                self._narrow((whole.bound,), bound_of(sum_of(terms)))
             self._demand(terms, whole)
             return
         if terms:
@@ -95,7 +96,7 @@ class TimeEquations:
             return False
         most = ends_of(whole)[1]
         if most is not None:
-            within = ir.HalfRange(span=most.span, type=TIMES, bound=most, is_lower=False)
+            within = at_most(most)
             self._narrow(terms, within)
             self._demand(terms, within)
         return True
@@ -218,6 +219,9 @@ class TimeEquations:
 
     def relate_longest(self, members: Sequence[Terms], whole: ir.Expression) -> None:
         """Require that the longest of some members is as long as the whole."""
+        if len(members) == 1:
+            self.relate(members[0], whole)
+            return
         longest = self.longest(members)
         variable = [each for each in members if self.is_variable(each)]
         reached = [self.bounds(each) for each in members if each not in variable]
@@ -257,8 +261,9 @@ class TimeEquations:
         return found
 
     def _computed(self) -> dict[str, ir.Expression]:
-        """Return the values of own parameters that have one, defaults included."""
-        parameters = (each for each in self.declared if isinstance(each, ir.Parameter))
+        """Return the values of parameters that have one, defaults included."""
+        known = (*self.declared, *self.ctx.drawn)
+        parameters = (each for each in known if isinstance(each, ir.Parameter))
         return {each.name: each.value for each in parameters if each.value is not None}
 
     def bounds(self, terms: Terms) -> Times | None:

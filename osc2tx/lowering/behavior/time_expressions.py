@@ -7,10 +7,14 @@ from math import isinf
 from typing import TypeAlias
 
 from osc2tx import ir
-from osc2tx.lowering.value_types import BOOL, PRIMITIVES
+from osc2tx.lowering.value_types import BOOL, PRIMITIVES, lower_type
+from osc2tx.semantics import types
+from osc2tx.semantics.builtins import TIME
 from osc2tx_shared.classes import replace
 
 SLACK = 1e-9  # s
+
+TIMES = lower_type(types.RangeType(TIME))
 
 Terms: TypeAlias = tuple[ir.Expression, ...]
 """Times that add up to a length."""
@@ -149,6 +153,28 @@ def about(time: ir.Expression) -> ir.RangeValue:
 
 def _binary(operator: str, left: ir.Expression, right: ir.Expression) -> ir.Binary:
     return ir.Binary(span=left.span, type=left.type, operator=operator, left=left, right=right)
+
+
+def at_least(time: ir.Expression) -> ir.HalfRange:
+    """Return the range of times from one on."""
+    return ir.HalfRange(span=time.span, type=TIMES, bound=time, is_lower=True)
+
+
+def at_most(time: ir.Expression) -> ir.HalfRange:
+    """Return the range of times up to one."""
+    return ir.HalfRange(span=time.span, type=TIMES, bound=time, is_lower=False)
+
+
+def range_between(
+    low: ir.Expression | None, high: ir.Expression | None
+) -> ir.RangeValue | ir.HalfRange:
+    """Return the range of times between two, of which one may be missing."""
+    if low is not None and high is not None:
+        return ir.RangeValue(span=low.span, type=TIMES, lower=low, upper=high)
+    if low is not None:
+        return at_least(low)
+    assert high is not None
+    return at_most(high)
 
 
 def greater_of(one: ir.Expression, other: ir.Expression) -> ir.Expression:

@@ -15,23 +15,23 @@ from math import prod
 from typing import TypeAlias
 
 from osc2tx import ir
-from osc2tx.diagnostics import Label
-from osc2tx.lowering.behavior.durations import is_free, is_instant, is_open_ended
+from osc2tx.lowering.behavior.durations import is_free, is_instant, is_open_ended, with_elastic
 from osc2tx.lowering.behavior.invoked_times import MOST_CHOICES, InvokedTimes, Lasting, ScenarioOf
+from osc2tx.lowering.behavior.overlap_equations import OverlapTimes
 from osc2tx.lowering.behavior.time_equations import TimeEquations
 from osc2tx.lowering.behavior.time_expressions import (
     SLACK,
     Terms,
+    ends_of,
     is_range,
     part_of,
+    range_between,
     rest_of,
-    shown,
     sum_of,
     with_duration,
 )
 from osc2tx.lowering.context import LoweringContext
 from osc2tx_shared.classes import dataclass, replace
-from osc2tx_shared.overlaps import OFFSETS
 
 Composition: TypeAlias = ir.Serial | ir.Parallel | ir.OneOf
 
@@ -181,6 +181,8 @@ class TimeSystem:
 
     def _composition(self, node: Composition, is_bounded: bool) -> tuple[ir.Behavior, _Length]:
         is_equal = isinstance(node, ir.Parallel) and node.overlap == "equal"
+        if isinstance(node, ir.OneOf) and node.duration is not None:
+            node = with_elastic(node, node.members, node.duration)
         inner = not node.until and (is_bounded or node.duration is not None or is_equal)
         solved = [self._member(member, inner) for member in node.members]
         if any(new is not old for (new, _), old in zip(solved, node.members, strict=True)):
@@ -223,6 +225,8 @@ class TimeSystem:
             if node.duration is not None:
                 self._equations.relate(terms, node.duration)
             return node, _Known(terms)
+        if is_range(node.duration) and len(known) == len(lengths) - 1:
+            return self._given_the_rest(node, lengths, terms), None
         if len(known) + len(filling) < len(lengths):
             return node, None
         if lengths[-1] is OPEN:
@@ -233,6 +237,22 @@ class TimeSystem:
         if are_free and is_range(node.duration):
             return node, None  # their own lengths may lie in it
         return self._filled(node, filling, terms), None
+
+    def _given_the_rest(
+        self, node: ir.Serial, lengths: Sequence[_Length], others: Terms
+    ) -> ir.Serial:
+        """Return a serial whose only member of unknown length gets the rest of a range."""
+        assert node.duration is not None
+        low, high = (
+            end if end is None or not others else rest_of(end, others)
+            for end in ends_of(node.duration)
+        )
+        (member,) = (
+            member
+            for member, length in zip(node.members, lengths, strict=True)
+            if not isinstance(length, _Known)
+        )
+        return with_elastic(node, (member,), range_between(low, high))
 
     def _with_alternatives(self, node: ir.Serial, lengths: list[_Length]) -> _Length:
         """Relate the times of a serial with alternatives to its duration, if one choice fits."""
@@ -298,43 +318,21 @@ class TimeSystem:
         overlap = node.overlap or "start"
         is_plain = node.start_to_start is None and node.end_to_end is None
         if not lasting or not is_plain or overlap not in ("equal", "start"):
-            if len(lasting) > 1:
-                self._check_offsets(node, [lengths[index] for index in lasting])
-            return node, None
+            return node, self._offset(node, [lengths[index] for index in lasting])
         if overlap == "equal":
             return self._equal(node, lengths, lasting)
         return self._started_together(node, lengths, lasting)
 
-    def _check_offsets(self, node: ir.Parallel, lengths: list[_Length]) -> None:
-        """Report members whose lengths contradict the overlap of the composition."""
-        kind = node.overlap or ("start" if node.start_to_start is None else "any")
-        bounds = list(OFFSETS[kind])
-        for index, given in enumerate((node.start_to_start, node.end_to_end)):
-            if given is not None:
-                found = self._equations.bounds((given,))
-                if found is None:
-                    return
-                low, high = bounds[index]
-                bounds[index] = max(low, found[0]), min(high, found[1])
-        starts, ends = bounds
-        primary, *others = lengths
-        first = self._equations.bounds(primary.terms) if isinstance(primary, _Known) else None
-        for other in others if first is not None else ():
-            own = self._equations.bounds(other.terms) if isinstance(other, _Known) else None
-            if first is None or own is None or not isinstance(other, _Known):
-                continue
-            low = max(starts[0], -own[1], ends[0] + first[0] - own[1])
-            high = min(starts[1], first[1], ends[1] + first[1] - own[0])
-            if low > high + SLACK:
-                message = (
-                    f"members of {shown(first)} and {shown(own)} cannot overlap as this requires"
-                )
-                labels = [Label(term.span, "one of them") for term in other.terms]
-                advice = None
-                if node.overlap is None and kind == "start":
-                    advice = "without `overlap` they start together; `overlap: any` omits this"
-                self.ctx.sink.report("OSC519", node.span, message, labels=labels, help=advice)
-                return
+    def _offset(self, node: ir.Parallel, lengths: list[_Length]) -> _Length:
+        """Relate members to the offsets between them, and to the duration around them."""
+        known = [length.terms for length in lengths if isinstance(length, _Known)]
+        if len(lengths) < 2 or not isinstance(lengths[0], _Known):
+            return None
+        times = OverlapTimes(self._equations, node)
+        if not times.relate(known[0], known[1:]) or len(known) < len(lengths):
+            return None
+        whole = times.whole(known)
+        return None if whole is None else _Known(whole)
 
     def _equal(
         self, node: ir.Parallel, lengths: list[_Length], lasting: list[int]
@@ -384,6 +382,9 @@ class TimeSystem:
         known = [length for i in lasting if isinstance(length := lengths[i], _Known)]
         free = [index for index in lasting if lengths[index] in (FREE, LEAST)]
         whole = node.duration
+        can_fill = is_range(whole) and OPEN not in lengths
+        if whole is not None and can_fill and not self._is_filled(known, whole):
+            node = with_elastic(node, node.members, whole)
         if len(lasting) > len(known) + len(free):
             for length in known:
                 if whole is not None:
@@ -391,15 +392,21 @@ class TimeSystem:
             return node, None
         if whole is None:
             return node, self._longest(known) if known and not free else None
-        if len(free) == 1 and not is_range(whole):
+        if not is_range(whole) and (len(free) == 1 or not self._is_filled(known, whole)):
             node = replace(node, members=self._given(node.members, free, whole))
         for length in known if len(known) > 1 or free else ():
             self._equations.bound(length.terms, whole)
-        if not free and len(known) == 1:
-            self._equations.relate(known[0].terms, whole)
-        elif not free:
+        if not free:
             self._equations.relate_longest([each.terms for each in known], whole)
         return node, self._longest(known) if known and not free else None
+
+    def _is_filled(self, members: Sequence[_Known], whole: ir.Expression) -> bool:
+        """Whether one of some members surely lasts for a time."""
+        found = (self._equations.bounds(each.terms) for each in members)
+        wanted = self._equations.bounds((whole,))
+        return wanted is not None and any(
+            each is not None and each[0] >= wanted[0] - SLACK for each in found
+        )
 
     def _longest(self, members: Sequence[_Known]) -> _Known:
         return _Known(self._equations.longest([each.terms for each in members]))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from osc2tx import ir
 from osc2tx.analysis.constraints.operation_list import Key
+from osc2tx.analysis.constraints.parameter_lookup import is_actor
 from osc2tx.diagnostics import Span
 from osc2tx.lowering.behavior.composed_behaviors import is_composed
 from osc2tx.lowering.context import LoweringContext
@@ -96,9 +97,12 @@ def lower_member(
     label = ctx.model.symbol_of(base)
     if isinstance(label, sym.LabelSymbol):
         return _of_label(ctx, node, label, field, type_)
-    if field.node is None and field.name == "actor" and ctx.actor is not None:  # `it.actor`
-        return replace(ctx.actor, span=node.span)
     key = ctx.place.locate(node) if ctx.place is not None else None
+    if is_actor(field):  # `it.actor`
+        if key is not None and isinstance(key[0], sym.FieldSymbol) and not is_actor(key[0]):
+            return lower_key(ctx, key, node.span)
+        if ctx.actor is not None:
+            return replace(ctx.actor, span=node.span)
     if key is not None and not isinstance(key[0], sym.FieldSymbol):
         return lower_key(ctx, key, node.span)
     lowered = ctx.lower(base)
@@ -199,15 +203,8 @@ def lower_key(ctx: LoweringContext, key: Key, span: Span) -> ir.Expression | Non
 
 def _place_of_actor(key: Key) -> int | None:
     """Return the index of the implicit field `actor` of a behavior in a path."""
-    places = (
-        n for n, part in enumerate(key) if isinstance(part, sym.FieldSymbol) and is_actor(part)
-    )
+    places = (n for n, part in enumerate(key) if isinstance(part, sym.Symbol) and is_actor(part))
     return next(places, None)
-
-
-def is_actor(field: sym.FieldSymbol) -> bool:
-    """Whether a field is the implicit one of a behavior, its actor."""
-    return field.node is None and field.name == "actor"
 
 
 def element_of(ctx: LoweringContext, node: ast.Index) -> ir.FieldRef | None:

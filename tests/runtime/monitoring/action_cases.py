@@ -41,6 +41,13 @@ ACTION_CASES = [
         action="change_acceleration",
     ),
     Case(
+        "keep_acceleration",
+        lambda s: s.a.keep_acceleration(duration=2.0),
+        accelerated,
+        0.1,
+        action="keep_acceleration",
+    ),
+    Case(
         "keep_position",
         lambda s: standing(s, s.a.remain_stationary()),
         left,

@@ -56,6 +56,23 @@ def change_acceleration(
     return (Acceleration(value_of(action.target), at="end"),)
 
 
+@stands_for("keep_acceleration")
+def keep_acceleration(action: object, phase: Phase) -> Iterator[Condition]:
+    """The acceleration over the first step, all the time; the standard has no modifier for it."""
+    me = phase.me
+    kept: float | None = None
+
+    def measure() -> Reading | None:
+        nonlocal kept
+        if phase.elapsed == 0.0:
+            return None  # it belongs to the step before the phase
+        now = me().a
+        kept = now if kept is None else kept
+        return now, kept, kept
+
+    yield Condition("keep_acceleration", "its acceleration", "acceleration", "all", measure)
+
+
 @stands_for("remain_stationary")
 def remain_stationary(action: object, phase: Phase) -> Sequence[Modifier]:
     """The position at the start, and no speed."""
@@ -203,5 +220,4 @@ unmonitored("the world draws a trailer along exactly", "tow_trailer")
 unmonitored("only its modifiers state something", "move", "drive", "walk")
 unmonitored("takes no time, so it has no phase", "assign_position", "assign_orientation")
 unmonitored("takes no time, so it has no phase", "assign_speed", "assign_acceleration")
-unmonitored("the standard does not define its modifier", "keep_acceleration")
 unmonitored("changes no motion state", "connect_trailer", "disconnect_trailer")

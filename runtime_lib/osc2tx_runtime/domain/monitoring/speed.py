@@ -92,15 +92,15 @@ def keep_speed(modifier: object, phase: Phase) -> Iterator[Condition]:
 def acceleration(modifier: Acceleration, phase: Phase) -> Iterator[Condition]:
     """The change of the speed over each step.
 
-    It ends when a speed is reached that is also required; the speed at the start of the phase does
-    not count.
+    It ends when a speed is reached that is also required all the time; a speed at the start or the
+    end of the phase leaves it required.
     """
     bounds = limits(modifier, phase, Acceleration.bounds)
     if modifier.at == "start":
         yield _first_acceleration(phase, bounds)
         return
     me, before = phase.me, phase.state_before() if moment(modifier) == "end" else phase.me
-    goals = [m for m in phase.modifiers if isinstance(m, Speed) and m.at != "start"]
+    goals = [m for m in phase.modifiers if isinstance(m, Speed) and m.at == "all"]
     speeds = [condition.measure for goal in goals for condition in speed(goal, phase)]
     reached = [] if any(_holds(present()) for present in speeds) else speeds
 
