@@ -86,6 +86,7 @@ def test_filters_and_crosses(sampled: Callable[..., Trace]) -> None:
         (1.5, False),
         (2.0, True),
     ]
+    assert trace.warnings == ("v has the illegal value 36.0 kph at 2.00 s",)
     crosses = [line for line in trace.of_kind("cover") if line["name"] == "both"]
     assert [line["value"]["late"] for line in crosses] == [False, True, True]
     assert {line["name"] for line in trace.of_kind("cover")} == {"v", "late", "both"}

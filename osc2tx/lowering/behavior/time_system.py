@@ -225,8 +225,11 @@ class TimeSystem:
             if node.duration is not None:
                 self._equations.relate(terms, node.duration)
             return node, _Known(terms)
-        if is_range(node.duration) and len(known) == len(lengths) - 1:
-            return self._given_the_rest(node, lengths, terms), None
+        whole = node.duration
+        if whole is not None and is_range(whole) and len(known) == len(lengths) - 1:
+            if not self._is_filled([_Known(terms)], whole):
+                node = self._given_the_rest(node, lengths, terms)
+            return node, None
         if len(known) + len(filling) < len(lengths):
             return node, None
         if lengths[-1] is OPEN:

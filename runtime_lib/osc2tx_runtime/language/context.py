@@ -116,6 +116,7 @@ class ExecutionContext:
         random: Seeded generator. For draws inside nodes use `random_for`: two parallel nodes
             that draw from one generator would depend on the order of their visit.
         collisions: Time in seconds and the two actors of each new contact.
+        illegal: Items of coverage with the description of their first illegal value (DSL 7.5.5).
         first_come: Whether members with a duration or an `until` end with whichever comes first.
         label_events: (label, `start` | `end` | `fail`) to the awaited event.
         resting: Nodes of the tree without work until they are woken.
@@ -157,6 +158,7 @@ class ExecutionContext:
         self.slots = Slots()
         self.effects = Effects()
         self.collisions: list[tuple[float, str, str]] = []
+        self.illegal: dict[str, str] = {}
         self.resting = Resting()
         self.monitors: Monitors | None = None
         self.entries: Entries | None = None

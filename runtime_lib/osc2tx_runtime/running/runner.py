@@ -179,7 +179,12 @@ def _result(outcome: Outcome, context: ExecutionContext, monitors: Monitors) -> 
         outcome.steps,
         outcome.steps * context.dt,
         collisions=tuple(context.collisions),
-        warnings=(*map_warnings(world.map), *world.warnings(), *overloads(context)),
+        warnings=(
+            *map_warnings(world.map),
+            *world.warnings(),
+            *overloads(context),
+            *context.illegal.values(),
+        ),
         place=outcome.place,
         violations=tuple(monitors.violations),
     )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from itertools import pairwise
 from typing import Any, Literal, TypedDict
@@ -186,6 +186,8 @@ class Recording(Leaf):
             line["bucket"] = slices if is_cross else slices[0]
         if any(part.illegal and part.illegal(v) for part, v in zip(parts, values, strict=True)):
             line["illegal"] = True
+            if not is_cross:  # its items say it
+                self._note_illegal(name, line)
         if item.target is not None:
             line["target"] = item.target
         if item.text:
@@ -193,6 +195,11 @@ class Recording(Leaf):
         if outcome:
             line["outcome"] = outcome
         self.context.trace.sampled(item.kind, line)
+
+    def _note_illegal(self, name: str, line: Mapping[str, Any]) -> None:
+        value = " ".join(str(line[key]) for key in ("value", "unit") if key in line)
+        found = f"{name} has the illegal value {value} at {self.context.time:.2f} s"
+        self.context.illegal.setdefault(name, found)
 
     def _value(self, item: CoverageItem) -> Any:
         assert item.value is not None, item.name
