@@ -190,17 +190,25 @@ class Compilation:
         return stages.lower_and_verify(self.model, self.analysis, self.options, self.sink)
 
     @cached_property
+    def keeps_rules(self) -> bool:
+        """Whether all calls keep the rules of the library; reports those that do not."""
+        if self.ir is None:
+            return False
+        return stages.check_library_rules(self.ir, self.sink)
+
+    @cached_property
     def is_supported(self) -> bool:
         """Whether the backend supports all of it; reports unsupported constructs."""
         if self.ir is None:
             return False
+        keeps_rules = self.keeps_rules
         if self.options.target != "xosc":
             from osc2tx.backends.py_trees.support import check_support
 
             with room_for_trees():
                 check_support(self.ir, self.sink)
         self._report_missing_maps(self.ir)
-        self.is_complete = not self._failed()
+        self.is_complete = keeps_rules and not self._failed()
         if self.options.target == "xosc":
             report_losses(self.xml, self.sink)
         return not self._failed()
@@ -302,6 +310,8 @@ class Compilation:
         Empty for a library, if there are errors, and if only modules are requested.
         """
         if self.ir is None or not self.ir.scenarios or self.options.target == "py":
+            return ()
+        if not self.keeps_rules:  # no document means what breaks them
             return ()
         from osc2tx.backends.xosc import emit
 

@@ -56,3 +56,12 @@ def lower_and_verify(
             return None
         verify(module)
     return module
+
+
+def check_library_rules(module: Module, sink: DiagnosticSink) -> bool:
+    """Report the calls that break a rule of the library; return whether there are none."""
+    from osc2tx.rules import check_rules
+
+    with room_for_trees():
+        check_rules(module, sink)
+    return not sink.has_errors

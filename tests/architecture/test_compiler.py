@@ -38,6 +38,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     | {"diagnostics", "options"},
     "xosc": {"diagnostics", "options"},
     "importing": {"options", "stdlib", "xosc"},
+    "rules": {"catalogue", "diagnostics", "ir"},
     "backends": {"catalogue", "diagnostics", "ir", "options", "resources", "support", "xosc"},
     # what runs them
     "module_loading": {"backends", "support"},
@@ -46,7 +47,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "formatter": {"diagnostics", "syntax"},
     "config": {"diagnostics", "options", "support"},
     "compilation": {"syntax", "semantics", "analysis", "ir", "lowering", "backends", "grading"}
-    | {"diagnostics", "formatter", "options", "support"},
+    | {"diagnostics", "formatter", "options", "rules", "support"},
     "building": {"compilation", "config", "ir", "module_loading"}
     | {"diagnostics", "options", "resources", "support", "version"},
     "reference": {"catalogue", "stdlib", "syntax"},

@@ -6,19 +6,19 @@ from collections.abc import Iterable, Sequence
 from pathlib import PurePosixPath
 
 from osc2tx import ir
-from osc2tx.backends.py_trees.call_support import CallCheck, domains_of
 from osc2tx.backends.py_trees.naming import identifier, module_name
 from osc2tx.backends.py_trees.object_support import ObjectCheck
 from osc2tx.backends.py_trees.own_names import declarations, has_module, is_own
 from osc2tx.backends.py_trees.runtime_api import ACTOR_CLASSES, ANNOTATIONS, STRUCT_CLASSES
-from osc2tx.catalogue import catalogue, object_tables
+from osc2tx.catalogue import object_tables
 from osc2tx.diagnostics import DiagnosticSink, Span
 from osc2tx.support.python_modules import is_taken
 
 # CPython gives up on expressions of about 3,000 parts; one of this length is unreadable anyway.
 MAX_PARTS = 1000
 
-# Names that `Scenario.invoke` uses, so parameters cannot be passed by them.
+# Names that constructors of actions and `Scenario.invoke` use: no parameter is passed by them.
+ACTION_KEYWORDS = frozenset({"actor", "label", "modifiers", "self"})
 INVOKE_KEYWORDS = frozenset({"caller", "known_as", "self", "settings"})
 
 
@@ -73,9 +73,7 @@ class _SupportCheck:
         self.own = own
         self.sink = sink
         self.objects = object_tables()
-        self.domains = domains_of(declarations)
         self.late_labels: set[str] = set()
-        self.calls = CallCheck(catalogue(), self.objects, sink, self.expressions, declarations)
 
     def run(self, scenario: ir.AbstractScenario) -> None:
         self.late_labels = _late_labels(scenario)
@@ -88,8 +86,7 @@ class _SupportCheck:
             self.expressions(part for part in parts if part is not None)
         self.expressions(constraint.expression for constraint in scenario.constraints)
         for placement in scenario.placements:
-            for modifier in placement.modifiers:
-                self.calls.placing(modifier)
+            self.modifiers(placement.modifiers)
         if isinstance(scenario, ir.Scenario):
             for node in ir.walk_behaviors(scenario.body):
                 self.behavior(node)
@@ -140,10 +137,14 @@ class _SupportCheck:
     def behavior(self, node: ir.Behavior) -> None:
         match node:
             case ir.Invoke():
-                self.calls.invocation(node)
+                if node.is_own:
+                    self.free_names(node, ACTION_KEYWORDS)
+                self.expressions(() if node.actor is None else (node.actor,))
+                self.expressions(argument.value for argument in node.arguments)
+                self.modifiers(node.modifiers)
                 self.limits(node.duration, node.until)
             case ir.InvokeScenario():
-                self.free_names(node)
+                self.free_names(node, INVOKE_KEYWORDS)
                 self.expressions(a.value for a in (*node.arguments, *node.times))
                 self.limits(node.duration, node.until)
             case ir.Wait(trigger=trigger):
@@ -164,9 +165,13 @@ class _SupportCheck:
             case ir.Serial() | ir.OneOf():
                 self.limits(node.duration, node.until)
 
-    def free_names(self, node: ir.InvokeScenario) -> None:
+    def modifiers(self, modifiers: Iterable[ir.ModifierCall]) -> None:
+        for modifier in modifiers:
+            self.expressions(argument.value for argument in modifier.arguments)
+
+    def free_names(self, node: ir.Invoke | ir.InvokeScenario, taken: frozenset[str]) -> None:
         for argument in node.arguments:
-            if argument.parameter in INVOKE_KEYWORDS:
+            if argument.parameter in taken:
                 self.sink.report(
                     "OSC509",
                     argument.span,
@@ -176,15 +181,8 @@ class _SupportCheck:
     def limits(self, duration: ir.Expression | None, until: tuple[ir.Trigger, ...]) -> None:
         if duration is not None:
             self.time(duration)
-            self.at_least_zero(duration)
         for trigger in until:
             self.trigger(trigger)
-
-    def at_least_zero(self, duration: ir.Expression) -> None:
-        for value in ir.children(duration) if isinstance(duration, ir.RangeValue) else (duration,):
-            seconds = ir.bounds(value, self.domains)
-            if seconds is not None and seconds[1] < 0.0:
-                self.sink.report("OSC513", value.span, "a duration cannot be negative")
 
     def time(self, value: ir.Expression) -> None:
         """Check a time that the tree is built with."""
@@ -209,20 +207,12 @@ class _SupportCheck:
             )
         match trigger.condition:
             case ir.Every():
-                self.period(trigger.condition)
                 for value in ir.condition_expressions(trigger.condition):
                     self.time(value)
             case ir.Level() | ir.Edge() | ir.Elapsed():
-                if isinstance(trigger.condition, ir.Elapsed):
-                    self.at_least_zero(trigger.condition.duration)
                 self.expressions(ir.condition_expressions(trigger.condition))
             case None:
                 pass
-
-    def period(self, condition: ir.Every) -> None:
-        seconds = ir.constant(condition.period)
-        if seconds is not None and seconds <= 0.0:
-            self.sink.report("OSC513", condition.period.span, "a period must be above zero")
 
     def expressions(self, expressions: Iterable[ir.Expression]) -> None:
         for expression in expressions:

@@ -6,9 +6,8 @@ from typing import Any
 import pytest
 
 from osc2tx import ir
-from osc2tx.backends.py_trees.combinations import CombinationCheck
-from osc2tx.catalogue import catalogue, object_tables
 from osc2tx.diagnostics import DiagnosticSink, SourceFile, Span
+from osc2tx.rules.combinations import CombinationCheck
 from osc2tx_runtime import Vehicle
 from osc2tx_runtime.domain import modifiers as runtime
 from osc2tx_runtime.domain.actions.movement.drive import Drive
@@ -83,7 +82,7 @@ def compiler_refuses(*calls: tuple[str, dict[str, Any], str]) -> bool:
         modifiers=tuple(call(*each) for each in calls),
         duration=second,
     )
-    check = CombinationCheck(catalogue(), object_tables(), sink, {"ego": ("vehicle",)})
+    check = CombinationCheck(sink, {"ego": ("vehicle",)})
     check.check(node, physical=False)
     check.twice(node)
     return sink.has_errors

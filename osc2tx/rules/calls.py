@@ -1,15 +1,15 @@
-"""Refuses actions and modifiers that the runtime library cannot carry out as they are called."""
+"""Refuses actions and modifiers that no world can carry out as they are called."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Sequence
 from types import MappingProxyType
 
 from osc2tx import ir
-from osc2tx.backends.py_trees.argument_rules import Given, GivenArguments, by_name, word
-from osc2tx.backends.py_trees.combinations import CombinationCheck
-from osc2tx.catalogue import ActionEntry, Catalogue, ModifierEntry, ObjectTables
+from osc2tx.catalogue import ActionEntry, ModifierEntry, catalogue
 from osc2tx.diagnostics import DiagnosticSink, Span
+from osc2tx.rules.combinations import CombinationCheck
+from osc2tx.rules.given import Given, GivenArguments, by_name, domains_of, word
 from osc2tx_shared.rules import Rule, violations
 
 # Limits of quantities in worlds, in SI units: the speed of light, lengths of roads.
@@ -22,38 +22,23 @@ INSTEAD = {
     "set_color": "set the field `color` instead: `keep(it.color == …)`",
 }
 
-# Names that constructors of actions take for themselves.
-ACTION_KEYWORDS = frozenset({"actor", "label", "modifiers", "self"})
-
 
 class CallCheck:
-    """Checks invocations and placements against the runtime.
+    """Checks invocations and placements.
 
     Args:
-        library: The catalogue.
-        objects: Its tables of objects.
-        sink: Where complaints go.
-        expressions: Checks expressions.
         declarations: Of the scenario.
+        sink: Receives reports.
     """
 
-    def __init__(
-        self,
-        library: Catalogue,
-        objects: ObjectTables,
-        sink: DiagnosticSink,
-        expressions: Callable[[Iterable[ir.Expression]], None],
-        declarations: Sequence[ir.Declaration],
-    ) -> None:
+    def __init__(self, declarations: Sequence[ir.Declaration], sink: DiagnosticSink) -> None:
         declared = (d for d in declarations if isinstance(d, ir.Actor | ir.Struct))
         self._lineages = {each.name: each.lineage for each in declared}
         self._values = {d.name: d.value for d in declarations if isinstance(d, ir.Parameter)}
         self._domains = domains_of(declarations)
-        self._combinations = CombinationCheck(library, objects, sink, self._lineages)
-        self._library = library
-        self._objects = objects
+        self._library = catalogue()
+        self._combinations = CombinationCheck(sink, self._lineages)
         self._sink = sink
-        self._expressions = expressions
 
     def placing(self, modifier: ir.ModifierCall) -> None:
         """Check a modifier that places an actor."""
@@ -70,7 +55,7 @@ class CallCheck:
         key = node.qualified_name
         entry = self._library.actions.get(key)
         if entry is None and node.is_own:
-            self._user_action(node, key)
+            self._modifiers(node, key, frozenset(self._library.modifiers))
             return
         if entry is None:  # the tables are complete: only abstract actions have no entry
             self._sink.report(
@@ -80,7 +65,6 @@ class CallCheck:
                 help="use one of these, such as `drive`",
             )
             return
-        self._acting(node)
         self._arguments(node.arguments, entry.arguments, f"action `{key}`")
         self._required(node, key, entry.required)
         others = {"with": None} if node.modifiers else {}
@@ -89,23 +73,6 @@ class CallCheck:
             self._combinations.check(node, physical=entry.physical)
         self._modifiers(node, key, entry.modifiers)
         self._narrowed(node, key, entry)
-
-    def _user_action(self, node: ir.Invoke, key: str) -> None:
-        """Check an action of a package of the user: it takes the parameters that it declares."""
-        for argument in node.arguments:
-            if argument.parameter in ACTION_KEYWORDS:
-                self._sink.report(
-                    "OSC509",
-                    argument.span,
-                    f"`{argument.parameter}` is a reserved name of the runtime here; rename it",
-                )
-        self._acting(node)
-        self._expressions(argument.value for argument in node.arguments)
-        self._modifiers(node, key, frozenset(self._library.modifiers))
-
-    def _acting(self, node: ir.Invoke) -> None:
-        if node.actor is not None:
-            self._expressions((node.actor,))
 
     def _modifiers(self, node: ir.Invoke, key: str, accepted: frozenset[str]) -> None:
         for modifier in node.modifiers:
@@ -195,7 +162,6 @@ class CallCheck:
                     argument.span,
                     f"argument `{argument.parameter}` of {what} is not supported yet",
                 )
-            self._expressions((argument.value,))
             self._size(argument.value)
 
     def _size(self, value: ir.Expression) -> None:
@@ -234,13 +200,6 @@ class CallCheck:
         given = GivenArguments({**by_name(arguments), **others}, self._domains)
         for broken in violations(subject, rules, given):
             self._sink.report("OSC513", given.span(broken.parameter, span), broken.text)
-
-
-def domains_of(declarations: Iterable[ir.Declaration]) -> dict[str, ir.Expression]:
-    """Return values and domains of parameters by name, of those that no run may give any value."""
-    parameters = [each for each in declarations if isinstance(each, ir.Parameter)]
-    found = ((each.name, each.value if each.is_fixed else each.domain) for each in parameters)
-    return {name: domain for name, domain in found if domain is not None}
 
 
 def _with_article(word: str) -> str:

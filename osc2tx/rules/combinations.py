@@ -1,4 +1,4 @@
-"""Refuses modifiers that the runtime cannot carry out together in one action."""
+"""Refuses modifiers that do not go together in one action."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ import math
 from collections.abc import Iterator, Mapping
 
 from osc2tx import ir
-from osc2tx.backends.py_trees.argument_rules import GivenArguments, by_name, word
-from osc2tx.catalogue import Catalogue, ObjectTables
+from osc2tx.catalogue import catalogue, object_tables
 from osc2tx.diagnostics import DiagnosticSink, Label
+from osc2tx.rules.given import GivenArguments, by_name, word
 from osc2tx_shared.classes import dataclass
 from osc2tx_shared.rules import Clash, Timing, clashes, is_across
 
@@ -40,21 +40,13 @@ class CombinationCheck:
     """Checks the modifiers of an action against each other.
 
     Args:
-        library: The catalogue.
-        objects: Its tables of objects.
-        sink: Where complaints go.
+        sink: Receives reports.
         lineages: The types of the scenario's objects, each with its bases.
     """
 
-    def __init__(
-        self,
-        library: Catalogue,
-        objects: ObjectTables,
-        sink: DiagnosticSink,
-        lineages: Mapping[str, tuple[str, ...]],
-    ) -> None:
-        self._rules = {name: entry.combining for name, entry in library.modifiers.items()}
-        self._objects = objects
+    def __init__(self, sink: DiagnosticSink, lineages: Mapping[str, tuple[str, ...]]) -> None:
+        self._rules = {name: entry.combining for name, entry in catalogue().modifiers.items()}
+        self._lane_bound = object_tables().lane_bound
         self._sink = sink
         self._lineages = lineages
 
@@ -103,7 +95,7 @@ class CombinationCheck:
     def _on_lanes(self, node: ir.Invoke) -> None:
         name = node.actor.name if isinstance(node.actor, ir.FieldRef) else ""
         lineage = self._lineages.get(name)
-        if lineage is None or self._objects.lane_bound.intersection(lineage):
+        if lineage is None or self._lane_bound.intersection(lineage):
             return
         for modifier in node.modifiers:
             across = is_across(_Call(modifier), self._rules)

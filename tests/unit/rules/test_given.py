@@ -7,9 +7,9 @@ from typing import Any
 import pytest
 
 from osc2tx import ir
-from osc2tx.backends.py_trees.argument_rules import GivenArguments
 from osc2tx.catalogue import catalogue
 from osc2tx.diagnostics import SourceFile, Span
+from osc2tx.rules.given import GivenArguments
 from osc2tx_runtime.language.actions.argument_rules import GivenValues
 from osc2tx_shared.rules import (
     Rule,

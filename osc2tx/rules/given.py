@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from types import MappingProxyType
 from typing import TypeAlias
 
@@ -66,3 +66,10 @@ def word(argument: ir.Argument) -> str | None:
         case ir.ExpressionBase(type=ir.ValueType(kind=ir.Kind.STRUCT, name=name)):
             return name
     return None
+
+
+def domains_of(declarations: Iterable[ir.Declaration]) -> dict[str, ir.Expression]:
+    """Return values and domains of parameters by name, of those that no run may give any value."""
+    parameters = [each for each in declarations if isinstance(each, ir.Parameter)]
+    found = ((each.name, each.value if each.is_fixed else each.domain) for each in parameters)
+    return {name: domain for name, domain in found if domain is not None}

@@ -1,0 +1,70 @@
+"""Applies the rules to all calls, durations and periods of a program."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+
+from osc2tx import ir
+from osc2tx.diagnostics import DiagnosticSink
+from osc2tx.rules.calls import CallCheck
+from osc2tx.rules.given import domains_of
+
+
+def check_rules(module: ir.Module, sink: DiagnosticSink) -> None:
+    """Report the calls and times in a program that break a rule of the library."""
+    for scenario in (*module.bases, *module.scenarios):
+        check = _Check(scenario.declarations, sink)
+        for declaration in scenario.declarations:
+            check.triggers(_triggers_of(declaration))
+        for placement in scenario.placements:
+            for modifier in placement.modifiers:
+                check.calls.placing(modifier)
+        if isinstance(scenario, ir.Scenario):
+            for node in ir.walk_behaviors(scenario.body):
+                check.behavior(node)
+
+
+def _triggers_of(declaration: ir.Declaration) -> Iterator[ir.Trigger]:
+    match declaration:
+        case ir.Variable(sample=ir.Sample(trigger=ir.Trigger() as trigger)):
+            yield trigger
+        case ir.Event(trigger=ir.Trigger() as trigger):
+            yield trigger
+
+
+class _Check:
+    def __init__(self, declarations: Sequence[ir.Declaration], sink: DiagnosticSink) -> None:
+        self.calls = CallCheck(declarations, sink)
+        self._domains = domains_of(declarations)
+        self._sink = sink
+
+    def behavior(self, node: ir.Behavior) -> None:
+        if isinstance(node, ir.Invoke):
+            self.calls.invocation(node)
+        match node:
+            case (
+                ir.Invoke(duration=ir.ExpressionBase() as duration)
+                | ir.InvokeScenario(duration=ir.ExpressionBase() as duration)
+                | ir.CompositionBase(duration=ir.ExpressionBase() as duration)
+            ):
+                self._at_least_zero(duration)
+        self.triggers(ir.triggers_of(node))
+
+    def triggers(self, triggers: Iterable[ir.Trigger]) -> None:
+        for trigger in triggers:
+            match trigger.condition:
+                case ir.Every(period=period):
+                    self._above_zero(period)
+                case ir.Elapsed(duration=duration):
+                    self._at_least_zero(duration)
+
+    def _at_least_zero(self, duration: ir.Expression) -> None:
+        for value in ir.children(duration) if isinstance(duration, ir.RangeValue) else (duration,):
+            seconds = ir.bounds(value, self._domains)
+            if seconds is not None and seconds[1] < 0.0:
+                self._sink.report("OSC513", value.span, "a duration cannot be negative")
+
+    def _above_zero(self, period: ir.Expression) -> None:
+        seconds = ir.constant(period)
+        if seconds is not None and seconds <= 0.0:
+            self._sink.report("OSC513", period.span, "a period must be above zero")
