@@ -35,13 +35,12 @@ class GivenArguments:
         argument = self._given[name]
         return word(argument) if isinstance(argument, ir.Argument) else argument
 
-    def greatest(self, name: str) -> float | None:
-        """Return the greatest number that an argument can be, if the compiler knows it."""
+    def bounds(self, name: str) -> tuple[float, float] | None:
+        """Return the least and the greatest number that an argument can be, if they are known."""
         argument = self._given[name]
-        if not isinstance(argument, ir.Argument):
-            return None
-        found = ir.bounds(argument.value, self._values)
-        return None if found is None else found[1]
+        return (
+            ir.bounds(argument.value, self._values) if isinstance(argument, ir.Argument) else None
+        )
 
     def span(self, name: str | None, call: Span) -> Span:
         """Return the span of an argument, or of the call if the argument is omitted."""

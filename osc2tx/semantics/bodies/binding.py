@@ -42,7 +42,7 @@ class _Written(dict[str, ast.Expression]):
     def word(self, name: str) -> None:
         """No rule looks at words."""
 
-    def greatest(self, name: str) -> None:
+    def bounds(self, name: str) -> None:
         """No rule looks at numbers."""
 
 

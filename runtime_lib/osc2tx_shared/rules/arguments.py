@@ -7,6 +7,12 @@ from typing import Literal, Protocol
 
 from osc2tx_shared.classes import dataclass
 
+LIMITS = {
+    "at_least": "not be less than",
+    "at_most": "not be more than",
+    "above": "be above",
+}
+
 
 @dataclass(frozen=True, slots=True)
 class Rule:
@@ -14,20 +20,20 @@ class Rule:
 
     Attributes:
         kind: `at_most_one` or `at_least_one` of the parameters is given, `none` of them, or each
-            that is given is `at_least` some number, or `above` it.
+            that is given is `at_least` or `at_most` some number, or `above` it.
         of: Parameters.
         when: It only holds if one of these is given,
         values: with one of these values,
         unless: and none of these is given.
-        least: The number.
+        number: The number.
     """
 
-    kind: Literal["at_most_one", "at_least_one", "none", "at_least", "above"]
+    kind: Literal["at_most_one", "at_least_one", "none", "at_least", "at_most", "above"]
     of: tuple[str, ...]
     when: tuple[str, ...] = ()
     values: tuple[str, ...] = ()
     unless: tuple[str, ...] = ()
-    least: int = 0
+    number: int = 0
 
 
 class Given(Protocol):
@@ -42,8 +48,8 @@ class Given(Protocol):
         Of an object it is the type (`path`).
         """
 
-    def greatest(self, name: str, /) -> float | None:
-        """Return the greatest number that an argument can be; None if that is not known."""
+    def bounds(self, name: str, /) -> tuple[float, float] | None:
+        """Return the least and the greatest number that an argument can be; None if not known."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,12 +84,17 @@ def none_of(*of: str, when: Sequence[str], values: Sequence[str] = ()) -> Rule:
 
 def at_least(least: int, *of: str, when: Sequence[str] = (), unless: Sequence[str] = ()) -> Rule:
     """These parameters are numbers that are not less."""
-    return Rule("at_least", of, tuple(when), unless=tuple(unless), least=least)
+    return Rule("at_least", of, tuple(when), unless=tuple(unless), number=least)
+
+
+def at_most(most: int, *of: str) -> Rule:
+    """These parameters are numbers that are not greater."""
+    return Rule("at_most", of, number=most)
 
 
 def above(least: int, *of: str) -> Rule:
     """These parameters are numbers that are greater."""
-    return Rule("above", of, least=least)
+    return Rule("above", of, number=least)
 
 
 def violations(subject: str, rules: Iterable[Rule], given: Given) -> Iterator[Violation]:
@@ -112,16 +123,22 @@ def _violations(
             yield Violation(None, f"{subject} needs {_or(rule.of)}")
         case "none" if found:
             yield Violation(found[0], f"{subject} leaves no room for `{found[0]}`")
+        case "at_least" | "at_most" | "above":
+            for name in found:
+                bounds = given.bounds(name)
+                if bounds is not None and not _keeps(rule, *bounds):
+                    yield Violation(name, f"`{name}` must {LIMITS[rule.kind]} {rule.number}")
+
+
+def _keeps(rule: Rule, least: float, greatest: float) -> bool:
+    """Whether a number between these can keep a rule."""
+    match rule.kind:
         case "at_least":
-            for name in found:
-                number = given.greatest(name)
-                if number is not None and number < rule.least:
-                    yield Violation(name, f"`{name}` must not be less than {rule.least}")
-        case "above":
-            for name in found:
-                number = given.greatest(name)
-                if number is not None and number <= rule.least:
-                    yield Violation(name, f"`{name}` must be above {rule.least}")
+            return greatest >= rule.number
+        case "at_most":
+            return least <= rule.number
+        case _:
+            return greatest > rule.number
 
 
 def _counts(rule: Rule, name: str, given: Given) -> bool:

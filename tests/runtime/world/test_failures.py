@@ -14,7 +14,6 @@ from osc2tx_runtime.domain.points_and_poses import RoutePoint
 from osc2tx_runtime.modifiers import (
     along,
     change_lane,
-    distance,
     keep_lane,
     lane,
     lateral,
@@ -133,12 +132,6 @@ CASES: list[tuple[Callable[[Any], Behaviour], str, float, str]] = [
         "a.follow_lane",
         AT_ONCE,
         "lane 4 of road 1 is not a driving lane",
-    ),
-    (
-        lambda s: s.a.drive(distance(-5.0)),
-        "a.drive",
-        AT_ONCE,
-        "its target position is 5.0 m behind it",
     ),
     (
         lambda s: s.a.drive(position(20.0, at="end")),

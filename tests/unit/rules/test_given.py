@@ -46,8 +46,9 @@ def cases(rules: tuple[Rule, ...]) -> Iterator[Mapping[str, Any]]:
     """Yield up to three of the parameters that rules speak of, with values on both sides."""
     values: dict[str, list[Any]] = {}
     for rule in rules:
+        beyond = rule.number + (1 if rule.kind == "at_most" else -1)
         for name in (*rule.of, *rule.when, *rule.unless):
-            values.setdefault(name, [rule.least, rule.least - 1])
+            values.setdefault(name, [rule.number, beyond])
         for name in rule.when:
             values[name] = [*rule.values[:1], "something else"] if rule.values else [1]
     for size in range(4):

@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TypeVar
-
 from osc2tx import ir
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.facts.actors import Pace
 from osc2tx.backends.xosc.report import NOTHING, Inexpressible, Metres, Remedy
 from osc2tx.backends.xosc.values.constants import Constant, Member, Named
-
-ValueT = TypeVar("ValueT")
 
 
 def construct_of_action(node: ir.Invoke) -> str:
@@ -62,12 +58,10 @@ class Arguments:
         return None if expression is None else self._ctx.values.number(expression)
 
     def required(self, name: str) -> float:
-        """Return a number, in SI units, that the library requires.
-
-        Raises:
-            Inexpressible: It is left out.
-        """
-        return self._stated(name, self.number(name))
+        """Return a number, in SI units, that the library requires."""
+        number = self.number(name)
+        assert number is not None, "the rules ask for it"
+        return number
 
     def size(self, name: str) -> float | None:
         """Return a number, in SI units, or what stands for the range that is said instead."""
@@ -137,17 +131,10 @@ class Arguments:
         return self._ctx.cast[value.name]
 
     def required_entity(self, name: str) -> CastMember:
-        """Return an actor that the library requires.
-
-        Raises:
-            Inexpressible: It is left out.
-        """
-        return self._stated(name, self.entity(name))
-
-    def _stated(self, name: str, value: ValueT | None) -> ValueT:
-        if value is None:
-            raise Inexpressible(f"`{name}` is not stated", self.span)
-        return value
+        """Return an actor that the library requires."""
+        entity = self.entity(name)
+        assert entity is not None, "the rules ask for it"
+        return entity
 
     def approximate(self, reason: str, bound: Metres | str, remedy: Remedy = NOTHING) -> None:
         """Report that the action or modifier means nearly the same in the XML."""

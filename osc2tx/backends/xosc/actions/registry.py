@@ -95,7 +95,6 @@ def apply_modifiers(leaf: Leaf) -> Changes:
         handler = MODIFIERS.get(call.name)
         if handler is None:
             reason = f"`{call.name}` has no counterpart here"
-            reason = WITHOUT_FORM["modifier"].get(call.name, reason)
             leaf.ctx.report.cannot(call.construct, call.span, reason)
             continue
         with leaf.ctx.report_as(call.construct, call.span):

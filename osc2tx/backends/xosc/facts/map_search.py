@@ -81,15 +81,6 @@ def _build(cls: type[BuiltT], query: MapQuery, made: Mapping[str, RoadPart]) -> 
     unknown = [name for name in query.properties if name not in known]
     if unknown:
         raise Inexpressible(f"`{unknown[0]}` of a {query.kind} cannot be determined from the map")
-    missing = [
-        name
-        for name, each in known.items()
-        if each.default is each.empty
-        and each.kind in (each.POSITIONAL_OR_KEYWORD, each.KEYWORD_ONLY)
-        and name not in query.properties
-    ]
-    if missing:
-        raise Inexpressible(f"`{missing[0]}` of a {query.kind} is not stated")
     arguments: dict[str, Any] = {n: _resolved(value, made) for n, value in query.properties.items()}
     return cls(**arguments)
 

@@ -6,37 +6,32 @@ forever; here they take no time, and their effect persists.
 
 from __future__ import annotations
 
-import math
-from collections.abc import Mapping
 from functools import partial
 from typing import TYPE_CHECKING, Unpack
 
 from osc2tx_runtime.domain.modifiers import Modifier
 from osc2tx_runtime.domain.planning.motion_action import note_lights
 from osc2tx_runtime.language.actions.action import Action, ActionOptions
+from osc2tx_runtime.language.actions.argument_rules import GivenValues
 from osc2tx_runtime.language.actions.registry import action
 from osc2tx_runtime.language.tree.base import Status
-from osc2tx_shared.rules import at_least_one
+from osc2tx_shared.rules import at_least, at_least_one, at_most, violations
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.actors import Environment
     from osc2tx_runtime.domain.measuring.weather import CelestialLightSource
 
-BOUNDS: Mapping[str, tuple[float, float, str]] = {
-    "temperature": (0.0, math.inf, " K"),
-    "pressure": (0.0, math.inf, " Pa"),
-    "relative_humidity": (0.0, 1.0, ""),
-    "rain_intensity": (0.0, math.inf, " m/s"),
-    "snow_intensity": (0.0, math.inf, " m/s"),
-    "wind_speed": (0.0, math.inf, " m/s"),
-    "visual_range": (0.0, math.inf, " m"),
-    "cloudiness": (0.0, 9.0, " okta"),  # 9: sky obscured
-}
-"""Least and greatest value of the environment, and its unit; angles are unlimited."""
-
 
 class _Weather(Action):
-    """Sets values of the environment; None leaves a value unchanged."""
+    """Sets quantities of the environment.
+
+    Args:
+        actor: The environment.
+        modifiers: None are taken.
+        values: By parameter; None leaves a value unchanged.
+        options: Duration and label.
+        of: What names of parameters lack to be those of quantities.
+    """
 
     def __init__(
         self,
@@ -44,19 +39,22 @@ class _Weather(Action):
         modifiers: tuple[Modifier, ...],
         values: dict[str, float | None],
         options: ActionOptions,
+        of: str = "",
     ) -> None:
         super().__init__(actor, *modifiers, **options)
         self.values = {name: value for name, value in values.items() if value is not None}
+        self._of = of
         self._refused: str | None = None
 
     def on_start(self) -> None:
         """Sets the values, if they are possible; values that depend on the world are known now."""
         values = {n: value() if callable(value) else value for n, value in self.values.items()}
-        problems = (_impossible(name, value) for name, value in values.items())
-        self._refused = next(filter(None, problems), None)
-        if self._refused is not None:
+        broken = next(violations("it", type(self).rules, GivenValues(values)), None)
+        if broken is not None:
+            self._refused = broken.text
             return
-        for name, value in values.items():
+        for parameter, value in values.items():
+            name = f"{self._of}{parameter}"
             self.effect(f"environment {name}", value, partial(self._set, name, value))
 
     def on_update(self) -> Status:
@@ -71,20 +69,15 @@ class _Weather(Action):
             note_lights(context, actor_id, lights)
 
 
-def _impossible(name: str, value: float) -> str | None:
-    """Why a value is impossible; None if it is possible."""
-    least, most, unit = BOUNDS.get(name, (-math.inf, math.inf, ""))
-    if least <= value <= most:
-        return None
-    bound = f"below {least:g}" if value < least else f"above {most:g}"
-    return f"{name.replace('_', ' ')} {value:g}{unit} is {bound}{unit}"
-
-
 @action("environment", "air", ends="instant", needs=("weather",))
 class Air(_Weather):
     """Set temperature (K), pressure (Pa) and relative humidity (0 to 1)."""
 
-    rules = (at_least_one("temperature", "pressure", "relative_humidity"),)
+    rules = (
+        at_least_one("temperature", "pressure", "relative_humidity"),
+        at_least(0, "temperature", "pressure", "relative_humidity"),
+        at_most(1, "relative_humidity"),
+    )
 
     def __init__(
         self,
@@ -107,6 +100,8 @@ class Air(_Weather):
 class Rain(_Weather):
     """Set the intensity of rain (m/s of water column)."""
 
+    rules = (at_least(0, "intensity"),)
+
     def __init__(
         self,
         actor: Environment,
@@ -114,13 +109,15 @@ class Rain(_Weather):
         intensity: float,
         **options: Unpack[ActionOptions],
     ) -> None:
-        super().__init__(actor, modifiers, {"rain_intensity": intensity}, options)
+        super().__init__(actor, modifiers, {"intensity": intensity}, options, of="rain_")
 
 
 @action("environment", "snow", ends="instant", needs=("weather",))
 class Snow(_Weather):
     """Set the intensity of snow (m/s of water column)."""
 
+    rules = (at_least(0, "intensity"),)
+
     def __init__(
         self,
         actor: Environment,
@@ -128,14 +125,14 @@ class Snow(_Weather):
         intensity: float,
         **options: Unpack[ActionOptions],
     ) -> None:
-        super().__init__(actor, modifiers, {"snow_intensity": intensity}, options)
+        super().__init__(actor, modifiers, {"intensity": intensity}, options, of="snow_")
 
 
 @action("environment", "wind", ends="instant", needs=("weather",))
 class Wind(_Weather):
     """Set speed (m/s) and direction (rad) of the wind."""
 
-    rules = (at_least_one("speed", "direction"),)
+    rules = (at_least_one("speed", "direction"), at_least(0, "speed"))
 
     def __init__(
         self,
@@ -145,13 +142,15 @@ class Wind(_Weather):
         direction: float | None = None,
         **options: Unpack[ActionOptions],
     ) -> None:
-        values = {"wind_speed": speed, "wind_direction": direction}
-        super().__init__(actor, modifiers, values, options)
+        values = {"speed": speed, "direction": direction}
+        super().__init__(actor, modifiers, values, options, of="wind_")
 
 
 @action("environment", "fog", ends="instant", needs=("weather",))
 class Fog(_Weather):
     """Set the visual range (m)."""
+
+    rules = (at_least(0, "visual_range"),)
 
     def __init__(
         self,
@@ -165,7 +164,9 @@ class Fog(_Weather):
 
 @action("environment", "clouds", ends="instant", needs=("weather",))
 class Clouds(_Weather):
-    """Set the cloud cover (okta)."""
+    """Set the cloud cover (okta); 9 is an obscured sky."""
+
+    rules = (at_most(9, "cloudiness"),)
 
     def __init__(
         self,
@@ -202,5 +203,5 @@ class AssignCelestialPosition(_Weather):
         **options: Unpack[ActionOptions],
     ) -> None:
         name = "sun" if light_source is None else light_source.name
-        values = {f"{name}_azimuth": azimuth, f"{name}_elevation": elevation}
-        super().__init__(actor, modifiers, values, options)
+        values = {"azimuth": azimuth, "elevation": elevation}
+        super().__init__(actor, modifiers, values, options, of=f"{name}_")

@@ -55,7 +55,7 @@ class EnvironmentMethods:
     def clouds(
         self, label: str | None = None, /, *, cloudiness: float, duration: Duration | None = None
     ) -> Behaviour:
-        """Set the cloud cover (okta) (§8.11.7)."""
+        """Set the cloud cover (okta); 9 is an obscured sky (§8.11.7)."""
 
     def fog(
         self, label: str | None = None, /, *, visual_range: float, duration: Duration | None = None

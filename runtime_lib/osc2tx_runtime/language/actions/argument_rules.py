@@ -30,10 +30,10 @@ class GivenValues:
         word = value if isinstance(value, str) else getattr(value, "kind", None)
         return word if isinstance(word, str) else None
 
-    def greatest(self, name: str) -> float | None:
-        """Return a number; None for a late value."""
+    def bounds(self, name: str) -> tuple[float, float] | None:
+        """Return a number, twice; None for a late value."""
         value = self._values[name]
-        return value if isinstance(value, int | float) else None
+        return (value, value) if isinstance(value, int | float) else None
 
 
 def check_arguments(what: str, rules: Iterable[Rule], given: Mapping[str, Any]) -> None:

@@ -23,7 +23,7 @@ def compiled(path: Path, options: CompileOptions = PLAIN, name: str | None = Non
 
 def module_of(compilation: Compilation) -> ir.Module:
     """Return what the scenarios of a file mean; there must not be an error in it."""
-    assert compilation.ir is not None, compilation.diagnostics
+    assert compilation.ir is not None and compilation.keeps_rules, compilation.diagnostics
     return compilation.ir
 
 

@@ -122,9 +122,7 @@ def _assign_orientation(leaf: Leaf) -> Performance:
 def _change_position(leaf: Leaf) -> Performance:
     arguments = leaf.arguments
     names = ("target_position", "target_xyz", "target_st", "target_odr")
-    name = next((each for each in names if each in arguments), None)
-    if name is None:
-        raise Inexpressible("it has no target position")
+    name = next(each for each in names if each in arguments)
     target = xml_position(leaf.ctx, arguments.get(name))
     joined, on_network = arguments.get("interpolation"), arguments.get("on_road_network")
     is_smooth = isinstance(joined, Member) and joined.name == "smooth"

@@ -129,7 +129,8 @@ class ChangeLane(_OnLane):
         at_most_one("target", "side"),
         at_most_one("target", "reference"),
         at_least_one("reference", when=["side"], values=["same"]),
-        at_least(0, "num_of_lanes"),
+        at_least(0, "num_of_lanes", when=["reference"]),
+        at_least(1, "num_of_lanes", unless=["reference"]),  # it is in its own lane already
         above(0, "rate_peak"),
     )
 

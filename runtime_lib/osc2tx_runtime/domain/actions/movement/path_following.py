@@ -33,7 +33,7 @@ from osc2tx_runtime.enums import RelativeTransform
 from osc2tx_runtime.language.actions.action import ActionOptions
 from osc2tx_runtime.language.actions.registry import LATERAL, LONGITUDINAL, action
 from osc2tx_runtime.world.commands import Command
-from osc2tx_shared.rules import at_least_one, at_most_one
+from osc2tx_shared.rules import at_least, at_least_one, at_most_one
 
 from .modifiable import ModifiableAction
 
@@ -67,7 +67,11 @@ RelativeT = TypeVar("RelativeT", bound=RelativePath | RelativeTrajectory)
 class _OnCourse(CourseAction, Generic[CourseT, RelativeT]):
     """Common base of paths and trajectories: absolute, or relative to a reference."""
 
-    rules = (at_most_one("absolute", "relative"), at_least_one("absolute", "relative"))
+    rules = (
+        at_most_one("absolute", "relative"),
+        at_least_one("absolute", "relative"),
+        at_least(0, "start_offset", "end_offset"),
+    )
     replays: ClassVar[bool]
 
     @property

@@ -18,7 +18,7 @@ from osc2tx_runtime.enums import MovementOptions
 from osc2tx_runtime.language.actions.modifier import COURSE, LANE, SIDE
 from osc2tx_runtime.language.actions.registry import LATERAL, LONGITUDINAL
 from osc2tx_shared.classes import dataclass
-from osc2tx_shared.rules import Sort
+from osc2tx_shared.rules import Sort, at_least
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.map.roads_and_lanes import RoadPath, Route
@@ -73,6 +73,7 @@ class Along(MovementModifier):
     """
 
     shaped_by = AnyPositionShape
+    rules = (at_least(0, "start_offset", "end_offset"),)
     route: Path | Route | Callable[[], Path | Route]
     start_offset: Value = 0.0
     end_offset: Value = 0.0
@@ -100,6 +101,7 @@ class Along(MovementModifier):
 class AlongTrajectory(MovementModifier):
     """A trajectory to move along; offsets as for `along`."""
 
+    rules = (at_least(0, "start_offset", "end_offset"),)
     trajectory: Trajectory | Callable[[], Trajectory]
     start_offset: Value = 0.0
     end_offset: Value = 0.0

@@ -11,7 +11,7 @@ from osc2tx_runtime.domain.shapes import AnyPositionShape, OwnShape
 from osc2tx_runtime.language.actions.modifier import COURSE
 from osc2tx_runtime.language.actions.registry import LATERAL, LONGITUDINAL
 from osc2tx_shared.classes import dataclass
-from osc2tx_shared.rules import Sort, at_least_one, at_most_one, none_of
+from osc2tx_shared.rules import Sort, at_least, at_least_one, at_most_one, none_of
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.objects.physical_objects import PhysicalObject
@@ -175,6 +175,7 @@ class Distance(MovementModifier):
     """
 
     shaped_by = AnyPositionShape
+    rules = (at_least(0, "distance", unless=["shape"]),)
     distance: Value
     shape: AnyPositionShape | OwnShape[AnyPositionShape] | None = None
 
