@@ -19,6 +19,7 @@ from osc2tx.importing.dimensions import (
 from osc2tx.importing.effects import LATERAL, PROFILES, Effect, Reader, of_dynamics
 from osc2tx.importing.statements import Statement, call
 from osc2tx.xosc.element import Unresolved
+from osc2tx.xosc.player.courses import PEAK_RATES
 
 SHIFT_FACTORS = {"sinusoidal": 0.5 * math.pi**2, "linear": 0.5 * math.pi**2, "cubic": 6.0}
 
@@ -91,15 +92,7 @@ class Offsets(Reader):
         elif dimension == "rate":
             if shape != "linear":
                 arguments["rate_profile"] = "smooth"
-                peak = 0.5 * math.pi * value.value
-                text = (
-                    f"{_number(0.5 * math.pi)} * {value.within(PRODUCT)}"
-                    if value.is_open
-                    else literal(round(peak, 9), SPEED)
-                )
-            else:
-                text = value.text
-            arguments["rate_peak"] = text
+            arguments["rate_peak"] = _smooth_peak(value) if shape == "cubic" else value.text
         else:
             now = self._speeds.get(said)
             if now is None or now.value <= 0.0:
@@ -211,5 +204,9 @@ class Offsets(Reader):
         return 0.0 if place is None else place.offset
 
 
-def _number(value: float) -> str:
-    return f"{value:.9f}".rstrip("0")
+def _smooth_peak(cubic: Quantity) -> str:
+    """Return the peak rate of a smooth change that takes as long as a cubic one with its peak."""
+    ratio = PEAK_RATES["sinusoidal"] / PEAK_RATES["cubic"]
+    if cubic.is_open:
+        return f"{ratio:.6f} * {cubic.within(PRODUCT)}"
+    return literal(round(ratio * cubic.value, 6), SPEED)

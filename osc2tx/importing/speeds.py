@@ -23,6 +23,7 @@ from osc2tx.importing.profiles import Profiles
 from osc2tx.importing.starting import is_ahead
 from osc2tx.importing.statements import Statement, call, composed
 from osc2tx.xosc.element import Unresolved
+from osc2tx.xosc.player.courses import PEAK_RATES
 
 
 class Speeds(Reader):
@@ -253,4 +254,4 @@ class Speeds(Reader):
 
 
 def _peak(shape: str) -> float:
-    return {"sinusoidal": 0.5 * math.pi, "cubic": 1.5}.get(shape, 1.0)
+    return PEAK_RATES.get(shape, 1.0)

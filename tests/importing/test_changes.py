@@ -109,3 +109,23 @@ def test_an_element_is_named_with_those_around_it(name: str) -> None:
     assert "wait @" not in found.text
     assert faults(found) == []
     assert apart(found) < 0.1
+
+
+AT_A_RATE = """<LateralAction><LaneChangeAction>
+  <LaneChangeActionDynamics dynamicsShape="{}" dynamicsDimension="rate" value="1.5"/>
+  <LaneChangeTarget><AbsoluteTargetLane value="-3"/></LaneChangeTarget></LaneChangeAction>
+  </LateralAction>"""
+
+
+@pytest.mark.parametrize(
+    ("shape", "said"),
+    [
+        ("linear", "rate_profile: constant, rate_peak: 1.5mps"),
+        ("sinusoidal", "rate_profile: smooth, rate_peak: 1.5mps"),
+        ("cubic", "rate_profile: smooth, rate_peak: 1.570796mps"),  # as long as 1.5 of a cubic one
+    ],
+)
+def test_a_lane_change_at_a_rate_has_that_peak(shape: str, said: str, tmp_path: Path) -> None:
+    text = document(event("Aside", AT_A_RATE.format(shape), at_time("1")))
+    assert said in imported(text).text
+    assert is_same(text, tmp_path)

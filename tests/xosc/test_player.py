@@ -1,10 +1,12 @@
 """What the player refuses, and what it makes of parameters: with a place and a reason."""
 
+import math
 import re
 from pathlib import Path
 
 import pytest
 
+from osc2tx.grading.plain import plain
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc import read
 from osc2tx.xosc.arithmetic import evaluated, text_value
@@ -12,6 +14,7 @@ from osc2tx.xosc.element import Unresolved
 from osc2tx.xosc.player import Evaluator, Unplayable, map_of
 from osc2tx_runtime.opendrive import LanePosition, read_map
 from osc2tx_shared.map_files import SHIPPED
+from tests.importing.documents import at_time, document, event, speed_change
 
 GENERATED = Path(__file__).parents[2] / "generated"
 TEXT = (GENERATED / "cut_in.xosc").read_text(encoding="utf-8")
@@ -162,3 +165,88 @@ def test_a_maneuver_ends_with_its_last_event() -> None:
         text = re.sub(r"<StopTrigger>.*</StopTrigger>\s*</Storyboard>", condition, TEXT, flags=re.S)
         ends.append(Evaluator(text, MAP, 0.05).play(30.0))
     assert ends[0] == ends[1] < 30.0
+
+
+# --- lane changes: `other` begins in lane -2 at 15 m/s, its lanes are 3.5 m wide -----------------
+
+LANE = 3.5
+
+
+def played(action: str, before: str = "", speed: str = "") -> Evaluator:
+    """Return the run of a document in which `other` does something at 1 s, up to 11 s."""
+    text = document(before + event("It", action, at_time("1"), "parallel"), end=at_time("11"))
+    evaluator = Evaluator(plain(read(text)), MAP, 0.01)
+    if speed:
+        evaluator.bodies["other"].v = float(speed)
+    evaluator.play(11.0)
+    return evaluator
+
+
+def change(shape: str, dimension: str, value: str, lane: str = "-3") -> str:
+    """Return a lane change."""
+    return (
+        f'<LateralAction><LaneChangeAction><LaneChangeActionDynamics dynamicsShape="{shape}" '
+        f'dynamicsDimension="{dimension}" value="{value}"/><LaneChangeTarget>'
+        f'<AbsoluteTargetLane value="{lane}"/></LaneChangeTarget></LaneChangeAction></LateralAction>'
+    )
+
+
+def moved_aside(evaluator: Evaluator, time: float) -> float:
+    """Return how far `other` is beside its first place."""
+    rows = evaluator.track["other"]
+    return abs(rows[round(time / 0.01)][2] - rows[0][2])
+
+
+def test_a_step_into_another_lane_takes_no_time() -> None:
+    evaluator = played(change("step", "time", "5"))
+    assert moved_aside(evaluator, 1.0) == 0.0
+    assert moved_aside(evaluator, 1.01) == pytest.approx(LANE)
+    assert evaluator.time == pytest.approx(11.0)
+
+
+def test_a_step_into_the_lane_of_oncoming_traffic_turns_nobody() -> None:
+    evaluator = played(change("step", "time", "0", "1"))
+    rows = evaluator.track["other"]
+    assert moved_aside(evaluator, 2.0) == pytest.approx(7.0)  # lane -2 lies at -5.25 m
+    assert rows[-1][1] - rows[0][1] == pytest.approx(15.0 * 11.0, abs=0.2)
+
+
+@pytest.mark.parametrize("shape", ["linear", "sinusoidal", "cubic"])
+def test_a_change_by_distance_goes_on_with_the_way(shape: str) -> None:
+    """At a quarter of the way; the speed falls from 15 to 5 m/s in the first 5 s."""
+    slower = event("Slower", speed_change("5", "5"), at_time("0"))
+    evaluator = played(change(shape, "distance", "60"), slower)
+    part = {"linear": 0.25, "sinusoidal": 0.5 - math.sqrt(0.125), "cubic": 0.15625}[shape]
+    # since 1 s: 13 t - t^2 = 15
+    quarter = 1.0 + 0.5 * (13.0 - math.sqrt(13.0**2 - 60.0))
+    assert moved_aside(evaluator, quarter) == pytest.approx(part * LANE, abs=0.02)
+    # 13 t - t^2 = 40 at 5 m/s after 4 s, 36 m; 24 m are left at 5 m/s
+    assert moved_aside(evaluator, 5.0 + 24.0 / 5.0 - 0.1) < LANE - 1e-4
+    assert moved_aside(evaluator, 5.0 + 24.0 / 5.0 + 0.02) == pytest.approx(LANE, abs=1e-4)
+
+
+def test_a_change_by_distance_does_not_proceed_at_standstill() -> None:
+    evaluator = played(change("sinusoidal", "distance", "60"), speed="0")
+    assert moved_aside(evaluator, 10.9) == 0.0
+
+
+@pytest.mark.parametrize(
+    ("shape", "length"), [("linear", 3.5), ("cubic", 5.25), ("sinusoidal", 3.5 * math.pi / 2)]
+)
+def test_the_rate_of_a_change_is_its_peak(shape: str, length: float) -> None:
+    evaluator = played(change(shape, "rate", "1"))
+    rows = evaluator.track["other"]
+    fastest = max(abs(b[2] - a[2]) / 0.01 for a, b in zip(rows, rows[1:], strict=False))
+    assert fastest == pytest.approx(1.0, abs=1e-3)
+    assert moved_aside(evaluator, 1.0 + length - 0.1) < LANE - 1e-4
+    assert moved_aside(evaluator, 1.0 + length + 0.02) == pytest.approx(LANE, abs=1e-5)
+
+
+def test_a_change_at_no_rate_never_ends() -> None:
+    assert moved_aside(played(change("linear", "rate", "0")), 10.9) == 0.0
+
+
+def test_a_change_of_the_speed_from_standstill_to_standstill_takes_no_way() -> None:
+    stays = speed_change("0").replace('"time" value="4"', '"distance" value="20"')
+    evaluator = played(stays, speed="0")
+    assert evaluator.track["other"][-1][1] == evaluator.track["other"][0][1]

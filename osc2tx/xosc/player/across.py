@@ -7,7 +7,7 @@ import math
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.element import Element
 from osc2tx.xosc.player.bodies import LATERAL, Body, Running
-from osc2tx.xosc.player.courses import Course, number, shaped
+from osc2tx.xosc.player.courses import PEAK_RATES, Course, number, shaped
 from osc2tx.xosc.player.errors import Unplayable
 from osc2tx.xosc.player.places import beside, offset_of
 from osc2tx.xosc.player.scene import GAP_REACHED, Scene
@@ -22,6 +22,18 @@ PEAK_FACTORS = {
     "cubic": 6.0,
     "step": 0.0,
 }
+
+
+def _length_of(dynamics: Element, change: float) -> float:
+    """Return the length of a lane change, in the seconds or metres that its dynamics state."""
+    shape, value = dynamics.said("dynamicsShape"), number(dynamics, "value")
+    if shape == "step":
+        return 0.0
+    if dynamics.said("dynamicsDimension") != "rate":
+        return max(value, 0.0)
+    if value == 0.0:
+        return math.inf if change else 0.0
+    return PEAK_RATES[shape] * change / abs(value)
 
 
 class Offsets:
@@ -67,14 +79,9 @@ class Offsets:
         body.place = lane._replace(offset=start)
         end = number(node, "targetLaneOffset") * self._direction(lane)
         dynamics = node.one(xml.LaneChangeActionDynamics)
-        time = number(dynamics, "value")
-        match dynamics.said("dynamicsDimension"):
-            case "distance":
-                time /= body.v
-            case "rate":
-                time = abs(end - start) / time
-        run.length = time
-        run.offset = shaped(dynamics.said("dynamicsShape"), start, end, time)
+        run.is_by_way = dynamics.said("dynamicsDimension") == "distance"
+        run.length = _length_of(dynamics, abs(end - start))
+        run.offset = shaped(dynamics.said("dynamicsShape"), start, end, run.length)
         return run
 
     def _direction(self, place: LanePosition) -> int:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.element import Element
 from osc2tx.xosc.player.across import Offsets
@@ -84,7 +86,8 @@ class Stage:
             run.body.v = run.speed(0.0)
         if run.offset is not None and run.body.place is not None:
             place = run.body.place._replace(offset=run.offset(0.0))
-            run.body.put(self._scene.map, place, None)
+            h = self._scene.map.pose(place).h
+            run.body.put(self._scene.map, place, h if run.body.along > 0 else h + math.pi)
 
     # --- one step ---------------------------------------------------------------------------------
 
@@ -119,7 +122,9 @@ class Stage:
             self._ways.follow(body, run, way, time)
         elif run.offset is not None:
             assert run.length is not None
-            run.done = time >= run.length - STILL
-            body.move(scene.map, way, run.offset(time), scene.dt)
+            run.driven += abs(way)
+            passed = run.driven if run.is_by_way else time
+            run.done = passed >= run.length - STILL
+            body.move(scene.map, way, run.offset(passed), scene.dt)
         elif run.gap is not None:
             self._offsets.keep_aside(body, run, run.gap, way)

@@ -201,10 +201,11 @@ class Running:
         body: The body.
         domains: The domains that it controls.
         begun: When it began (s).
-        length: Its duration (s); `None`: it ends by itself or never.
+        length: Its duration (s), or its way (m) if that counts; `None`: it ends by itself or never.
         speed: Course of the speed.
         offset: Course of the offset.
         changes_lane: The offset is a lane change.
+        is_by_way: Its course counts the metres along its path, not the seconds.
         way: Points of a polyline, with times where it has some.
         is_timed: These times count.
         points: Metres from its start to each of its points.
@@ -223,6 +224,7 @@ class Running:
     speed: Course | None = None
     offset: Course | None = None
     changes_lane: bool = False
+    is_by_way: bool = False
     way: Sequence[tuple[float, Pose]] = ()
     is_timed: bool = False
     points: list[float] = field(default_factory=list)

@@ -20,6 +20,9 @@ RULES: dict[str, Callable[[float, float], bool]] = {
     "notEqualTo": lambda a, b: a != b,
 }
 
+PEAK_RATES = {"linear": 1.0, "cubic": 1.5, "sinusoidal": 0.5 * math.pi}
+"""Peak of the rate of a transition, as a multiple of its mean. A rate that is told is the peak."""
+
 
 def number(node: Element, name: str, default: float = 0.0) -> float:
     """Return the number of an attribute."""

@@ -12,7 +12,7 @@ from itertools import pairwise
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.element import Element
 from osc2tx.xosc.player.bodies import LONGITUDINAL, Body, Running
-from osc2tx.xosc.player.courses import Course, between, number, shaped, with_jerk
+from osc2tx.xosc.player.courses import PEAK_RATES, Course, between, number, shaped, with_jerk
 from osc2tx.xosc.player.errors import Unplayable
 from osc2tx.xosc.player.scene import GAP_REACHED, STILL, Scene
 from osc2tx.xosc.player.synchrony import Synchrony
@@ -56,15 +56,15 @@ class Speeds:
         end = self._target_speed(target)
         shape, dimension = dynamics.said("dynamicsShape"), dynamics.said("dynamicsDimension")
         value, change = number(dynamics, "value"), abs(end - body.v)
-        peak = {"linear": 1.0, "cubic": 1.5, "sinusoidal": math.pi / 2, "step": 0.0}[shape]
+        peak = PEAK_RATES.get(shape, 0.0)
         time = math.inf if change else 0.0  # at a rate of 0 it never gets there
         match dimension:
             case "time":
                 time = value
             case "rate" if value:
                 time = peak * change / abs(value)
-            case "distance":  # the mean of all these shapes lies in the middle
-                time = 2.0 * value / (body.v + end)
+            case "distance" if body.v + end:  # the mean of all these shapes lies in the middle
+                time = 2.0 * value / abs(body.v + end)
         if shape == "step" or (dimension != "rate" and value == 0.0):
             time = 0.0
         else:  # a tool may limit it to the performance of the vehicle
