@@ -14,7 +14,7 @@ from osc2tx.importing.values import Values
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.player.bodies import Body, Pose
 from osc2tx.xosc.player.places import waypoints
-from osc2tx.xosc.player.shapes import Way
+from osc2tx.xosc.player.shapes import Way, lengths_of
 from osc2tx_runtime.opendrive import LanePosition
 
 MILLIMETRES = 2e-3  # m: how near a point of the map has to be to the place that it stands for
@@ -51,14 +51,17 @@ def of_curve(way: Way) -> Way:
 
     The last chord is short and has the direction of the end, in which an actor leaves the curve.
     """
-    (before, last), (end, goal) = way[-2:]
-    length = math.dist(last[:2], goal[:2])
-    kept = {id(pose) for pose in sparse([pose for _, pose in way])}
-    found = [corner for corner in way if id(corner[1]) in kept]
-    if length > LAST:
-        x, y = goal.x - LAST * math.cos(goal.h), goal.y - LAST * math.sin(goal.h)
-        found.insert(-1, (end - (end - before) * LAST / length, Pose(x, y, goal.h)))
-    return found
+    kept, lengths = {id(pose) for pose in sparse([pose for _, pose in way])}, lengths_of(way)
+    if lengths[-1] <= LAST:
+        return [corner for corner in way if id(corner[1]) in kept]
+    found = [
+        corner
+        for corner, length in zip(way, lengths, strict=True)
+        if id(corner[1]) in kept and length < lengths[-1] - LAST
+    ]
+    end, goal = way[-1]
+    x, y = goal.x - LAST * math.cos(goal.h), goal.y - LAST * math.sin(goal.h)
+    return [*found, (end, Pose(x, y, goal.h)), way[-1]]
 
 
 class Courses:

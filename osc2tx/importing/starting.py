@@ -67,23 +67,28 @@ def is_straight_ahead(road_map: RoadMap | None, body: Body | None, *, beside: bo
     """
     if road_map is None or body is None or body.place is None:
         return False
-    place, lanes = body.place, [body.place.lane]
     try:
-        if beside:
-            section = road_map.roads[place.road].section_at(place.s)
-            lanes += [
-                each
-                for each in section.lanes
-                if each * place.lane > 0 and section.lanes[each].type == "driving"
-            ]
-        return all(_is_straight(road_map, place._replace(lane=each), body) for each in lanes)
+        return _is_straight(road_map, body.place, body, set() if beside else None)
     except (MapError, LookupError):
         return False
 
 
-def _is_straight(road_map: RoadMap, place: LanePosition, body: Body) -> bool:
+def _is_straight(
+    road_map: RoadMap, place: LanePosition, body: Body, known: set[tuple[str, int]] | None
+) -> bool:
+    """Whether a lane leads straight on.
+
+    Args:
+        road_map: The map.
+        place: Where the lane begins to count.
+        body: The entity.
+        known: The lanes that are looked along already, if those beside each one count.
+    """
     heading, cursor = road_map.pose(place).h, road_map.cursor()
     for _ in range(MOST_LOOKS):
+        for other in () if known is None else _beside(road_map, place, body.along, known):
+            if not _is_straight(road_map, other, body, known):
+                return False
         look, even = LOOK, cursor.stretch(place._replace(offset=0.0))
         if even is not None and even.curvature == 0.0:
             is_along_s = even.direction * body.along > 0
@@ -95,6 +100,26 @@ def _is_straight(road_map: RoadMap, place: LanePosition, body: Body) -> bool:
         if abs(ahead.travelled) < look:
             return True
     return False
+
+
+def _beside(
+    road_map: RoadMap, place: LanePosition, along: int, known: set[tuple[str, int]]
+) -> Iterator[LanePosition]:
+    """Yield where other lanes of the same direction begin on the rest of a road, if not known.
+
+    Those of exits begin behind the place.
+    """
+    known.add((place.road, place.lane))
+    goes_up = road_map.travel_direction(place.road, place.lane) * along > 0
+    for section in road_map.roads[place.road].sections:
+        if section.end <= place.s if goes_up else section.begin > place.s:
+            continue
+        s = max(section.begin, place.s) if goes_up else min(section.end, place.s)
+        for lane in section.lanes.values():
+            is_beside = lane.id * place.lane > 0 and lane.type == "driving"
+            if is_beside and (place.road, lane.id) not in known:
+                known.add((place.road, lane.id))
+                yield LanePosition(place.road, lane.id, s)
 
 
 def wrapped(angle: float) -> float:

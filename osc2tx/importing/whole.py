@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from osc2tx.importing.cast import Cast
 from osc2tx.importing.conditions import Trigger
 from osc2tx.importing.document import Document
+from osc2tx.importing.effects import LONGITUDINAL
 from osc2tx.importing.endings import (
     Waits,
     ends_of,
@@ -156,8 +157,15 @@ class _Members:
         found: list[Statement] = []
         for said in self._order:
             actor = self._actors[said]
-            is_moved = bool(self._of[actor.name]) or actor.kind == "movable_object"
-            if is_moved or not self._inits.places(said):
+            if branches := self._of[actor.name]:
+                slots = {slot for each in branches for slot in each.slots}
+                if len(branches) > 1 and (actor.name, LONGITUDINAL) not in slots:
+                    found += self._inits.going(said)  # none of them is behind the others
+                continue
+            if actor.kind == "movable_object":  # without a course of its own it stays where it is
+                found += self._inits.lasting(said)
+                continue
+            if not self._inits.places(said):
                 continue
             if said in self._placed:
                 found += self._inits.lasting(said)

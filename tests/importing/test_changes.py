@@ -6,7 +6,7 @@ import pytest
 
 from osc2tx.cli.import_ import import_all
 from osc2tx.importing.document import Folders
-from tests.importing.documents import after, at_time, document, event, faults, imported
+from tests.importing.documents import after, at_time, document, event, faults, imported, lane_change
 from tests.importing.documents import speed_change as change
 from tests.importing.test_structure import apart
 
@@ -128,4 +128,23 @@ AT_A_RATE = """<LateralAction><LaneChangeAction>
 def test_a_lane_change_at_a_rate_has_that_peak(shape: str, said: str, tmp_path: Path) -> None:
     text = document(event("Aside", AT_A_RATE.format(shape), at_time("1")))
     assert said in imported(text).text
+    assert is_same(text, tmp_path)
+
+
+def test_an_actor_of_several_branches_holds_its_speed_in_bends(tmp_path: Path) -> None:
+    """Either change of the lane may come first, so neither branch is behind the other."""
+    reached = """<Condition name="there" delay="0" conditionEdge="none"><ByEntityCondition>
+      <TriggeringEntities triggeringEntitiesRule="any"><EntityRef entityRef="other"/>
+      </TriggeringEntities><EntityCondition><ReachPositionCondition tolerance="3"><Position>
+      <LanePosition roadId="1" laneId="{}" s="{}"/></Position></ReachPositionCondition>
+      </EntityCondition></ByEntityCondition></Condition>"""
+    events = event("Out", lane_change(-1), reached.format(-1, 180))
+    events += event("In", lane_change(1), reached.format(-2, 320))
+    text = (
+        document(events, end=at_time("20"))
+        .replace("highway.xodr", "curve.xodr")
+        .replace('laneId="-3" s="100"', 'laneId="-2" s="100"')
+    )
+    text = text.replace('<AbsoluteTargetSpeed value="15"/>', '<AbsoluteTargetSpeed value="25"/>')
+    assert "other.keep_speed()" in imported(text).text
     assert is_same(text, tmp_path)

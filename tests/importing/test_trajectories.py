@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 
-from tests.importing.documents import at_time, begin, document, event
+from tests.importing.documents import after, at_time, begin, document, event, imported
 from tests.importing.test_measured import report_of
 
 TIMELESS = '<TimeReference><None/></TimeReference><TrajectoryFollowingMode followingMode="follow"/>'
@@ -76,3 +76,40 @@ def test_a_trajectory_at_the_start_puts_its_actor_elsewhere(tmp_path: Path) -> N
     text = document("").replace("</Actions></Init>", f"{put}{action}</Actions></Init>")
     report = report_of(tmp_path, text)
     assert report["measured"]["exact"] is True
+
+
+THING = """<ScenarioObject name="thing"><MiscObject name="box" miscObjectCategory="obstacle" mass="1">
+  <BoundingBox><Center x="0" y="0" z="0.5"/><Dimensions width="1" length="1" height="1"/>
+  </BoundingBox><Properties/></MiscObject></ScenarioObject>"""
+
+
+def test_an_object_follows_a_trajectory_from_the_start(tmp_path: Path) -> None:
+    places = [f'<WorldPosition x="{x}" y="{y}" h="0"/>' for x, y in ((50, 30), (80, 30), (80, 70))]
+    shape = corners(*places, times=(0.0, 3.0, 9.0))
+    private = (
+        f'<Private entityRef="thing"><PrivateAction>{follow(shape, TIMED.format("relative"))}'
+        "</PrivateAction></Private>"
+    )
+    text = document("", end=at_time("8"))
+    text = text.replace("</Entities>", f"{THING}</Entities>")
+    text = text.replace("</Actions></Init>", f"{private}</Actions></Init>")
+    assert "thing.replay_trajectory(" in imported(text).text
+    assert report_of(tmp_path, text)["measured"]["exact"] is True
+
+
+def test_curves_follow_each_other_in_their_directions(tmp_path: Path) -> None:
+    """Each begins in the direction in which the one before it ends."""
+    curve = '<Clothoid curvature="{}" curvatureDot="0" length="12">{}</Clothoid>'
+    own = (
+        '<Position><RelativeObjectPosition entityRef="other" dx="0" dy="0">'
+        '<Orientation type="relative" h="0"/></RelativeObjectPosition></Position>'
+    )
+    bends = [follow(curve.format(bend, own)) for bend in (0.06, -0.06, 0.0)]
+    text = document(
+        event("Left", bends[0], at_time("1"))
+        + event("Right", bends[1], after("Left"))
+        + event("On", bends[2], after("Right")),
+        end=at_time("3.3"),
+    )
+    found = report_of(tmp_path, text)["measured"]
+    assert found["exact"] is True, found

@@ -82,3 +82,19 @@ def test_segments_of_a_spline_follow_each_other() -> None:
     points = lengths_of(way)
     assert on_way(way, points, 4.0)[:2] == pytest.approx((4.0, 0.0))
     assert nearest_on(way, points, 4.0, -1.0) == pytest.approx(4.0)
+
+
+@pytest.mark.parametrize("bend", [0.0, 0.11, -0.05])
+def test_a_curve_ends_in_its_direction(bend: float) -> None:
+    """Another one may begin there; a chord of the curve deviates by half of its angle."""
+    way = ways(f'<Clothoid curvature="{bend}" curvatureDot="0" length="6">{where(1, 2)}</Clothoid>')
+    lengths = lengths_of(way)
+    assert on_way(way, lengths, 0.0).h == pytest.approx(0.0, abs=1e-4)
+    assert on_way(way, lengths, lengths[-1]).h == pytest.approx(6.0 * bend, abs=1e-4)
+
+
+def test_a_nurbs_ends_in_its_direction() -> None:
+    way = ways(quarter())
+    lengths = lengths_of(way)
+    assert on_way(way, lengths, 0.0).h == pytest.approx(0.5 * math.pi, abs=1e-4)
+    assert on_way(way, lengths, lengths[-1]).h == pytest.approx(math.pi, abs=1e-4)

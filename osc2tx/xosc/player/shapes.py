@@ -14,6 +14,10 @@ from osc2tx.xosc.player.errors import Unplayable
 from osc2tx_runtime.opendrive.geometry import make_spiral
 
 CHORD = 0.01  # m: a chord is nowhere farther from its curve
+END = 1e-3
+"""m: length of the first and the last chord of a clothoid, which have the directions of its ends."""
+NEAR_END = 1e-6
+"""The same for a NURBS, as a part of the range of its parameter."""
 SPAN_PIECES = 8  # of a span between knots at least
 MOST_HALVINGS = 10
 
@@ -132,8 +136,10 @@ def _curve(
     curve = make_spiral(*start, length, begin, end)
     steep = max(abs(begin), abs(end))
     count = max(1, math.ceil(length / math.sqrt(8.0 * CHORD / steep))) if steep else 1
-    for index in range(count + 1):
-        part = index / count
+    parts = [index / count for index in range(count + 1)]
+    if length > 2.0 * END:
+        parts[1:-1] = [END / length, *parts[1:-1], 1.0 - END / length]
+    for part in parts:
         x, y, h, _ = curve.at(part * length)
         yield times[0] + part * (times[1] - times[0]), Pose(x, y, h)
 
@@ -178,6 +184,10 @@ def _nurbs(node: Element, pose_of: PoseOf) -> Way:
         for index in range(SPAN_PIECES):
             step = (v - u) / SPAN_PIECES
             found += halved(u + index * step, u + (index + 1) * step, MOST_HALVINGS)
+    step = NEAR_END * (high - low)
+    for index, corner in ((1, at(low + step)), (-1, at(high - step))):
+        if corner[:2] not in (found[0][:2], found[-1][:2]):  # poles may coincide
+            found.insert(index, corner)
     headings = [math.atan2(b[1] - a[1], b[0] - a[0]) for a, b in pairwise(found)]
     return [
         (t, Pose(x, y, h)) for (x, y, t), h in zip(found, [*headings, headings[-1]], strict=True)
