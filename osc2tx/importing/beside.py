@@ -54,6 +54,8 @@ class Beside:
             if theirs.road != ours.road or len(set(directions)) > 1 or body.along < 0:
                 return None
             direction = directions[0]
+            if self._is_shorter(node, theirs, ours):
+                return None
         along = "dsLane" if node.has("dsLane") else "ds"
         ahead = self._values.quantity(node, along, LENGTH)
         side = "ahead_of" if direction > 0 or along == "dsLane" else "behind"
@@ -65,6 +67,16 @@ class Beside:
             f"position({ahead.text}, {side}: {reference})",
         ]
         return Spot(modifiers=modifiers)
+
+    def _is_shorter(self, node: Node, from_: LanePosition, to: LanePosition) -> bool:
+        """Whether a distance along the road is another one than along the lane: in a bend."""
+        assert self._ground.map is not None
+        if node.has("dsLane"):
+            return False
+        ds = self._values.nominal(node, "ds")
+        direction = self._ground.map.travel_direction(from_.road, from_.lane)
+        there = self._ground.map.advance(from_._replace(offset=0.0), ds * direction).position
+        return there.road != to.road or abs(there.s - to.s) > SAME
 
     def in_road(self, node: Node) -> Spot | None:
         """Return a place on the road of another actor, whose own place says where that is."""

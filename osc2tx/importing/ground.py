@@ -128,6 +128,11 @@ class Ground:
         except (MapError, LookupError):
             return None
 
+    def height(self, x: float, y: float) -> float:
+        """Return the height (m) of the road at a place in the world; 0 beside all roads."""
+        place = None if self.map is None else self.map.locate(x, y, max_distance=0.0)
+        return 0.0 if place is None or self.map is None else self.map.pose(place).z
+
     def trajectory(self, node: Node, here: Pose | None = None) -> Way | None:
         """Return the corners of the trajectory in an element, if they are known.
 

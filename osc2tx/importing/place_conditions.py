@@ -82,7 +82,7 @@ class PlaceConditions:
             node.leave_out("the position is not known before the run; it is never met here")
             return None
         self._take_place(node)
-        return self._places.points.goal(*found, a)
+        return self._places.points.goal(*found, self._places.height(*found), a)
 
     @staticmethod
     def _take_place(node: Node) -> None:

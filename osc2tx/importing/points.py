@@ -67,16 +67,16 @@ class Points:
     def __init__(self, names: Names) -> None:
         self._names = names
         self.declared: list[Declared] = []
-        self._declared: dict[tuple[str, float, float], str] = {}
+        self._declared: dict[tuple[str | float, ...], str] = {}
 
     def point(self, x: float, y: float, name: str) -> str:
         """Return the name of a point in the world."""
-        key = ("point", round(x, 6), round(y, 6))
+        place = [round(value, 6) for value in (x, y, 0.0)]
+        key: tuple[str | float, ...] = ("point", *place)
         if key not in self._declared:
             made = self._names.new("", kind="point", base=f"{name}_point")
             told = [
-                f"it.{axis} == {literal(v, LENGTH)}"
-                for axis, v in zip("xyz", (*key[1:], 0.0), strict=True)
+                f"it.{axis} == {literal(v, LENGTH)}" for axis, v in zip("xyz", place, strict=True)
             ]
             self.declared.append(Declared(made, "position_3d", [" and ".join(told)]))
             self._declared[key] = made
@@ -92,12 +92,13 @@ class Points:
             self._declared[key] = made
         return self._declared[key]
 
-    def goal(self, x: float, y: float, name: str) -> str:
+    def goal(self, x: float, y: float, z: float, name: str) -> str:
         """Return the name of a point in the world whose distance is measured."""
-        key = ("goal", round(x, 6), round(y, 6))
+        place = [round(value, 6) for value in (x, y, z)]
+        key: tuple[str | float, ...] = ("goal", *place)
         if key not in self._declared:
             made = self._names.new("", kind="point", base=f"{name}_goal")
-            at = ", ".join(literal(value, LENGTH) for value in (*key[1:], 0.0))
+            at = ", ".join(literal(value, LENGTH) for value in place)
             self.declared.append(Declared(made, "xyz_point", value=f"road.create_xyz_point({at})"))
             self._declared[key] = made
         return self._declared[key]

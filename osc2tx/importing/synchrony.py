@@ -126,5 +126,6 @@ class Synchrony(Reader):
         assert place is not None
         there = self._places.pose_of(place)
         near = literal(round(math.dist(here[:2], there[:2]), 3), LENGTH)
-        point = self._places.points.goal(*there[:2], master)
+        height = self._places.height(*there[:2])
+        point = self._places.points.goal(*there[:2], height, master)
         return f"{master}.distance_to_xyz_point({point}, euclidean) <= {near}"

@@ -88,3 +88,24 @@ def test_the_time_to_a_place(tmp_path: Path) -> None:
     text = document(event("Brake", speed_change("5"), collision_time(place)))
     report = report_of(tmp_path, text)
     assert report["measured"]["exact"] is True
+
+
+def test_a_place_is_as_high_as_its_road(tmp_path: Path) -> None:
+    """The curve climbs: a point below it would never be reached."""
+    there = '<ReachPositionCondition tolerance="2"><Position>{}</Position></ReachPositionCondition>'
+    place = '<LanePosition roadId="1" laneId="-1" s="300" offset="0"/>'
+    stops = event("Stop", speed_change("5"), HEADWAY.format("other", there.format(place)))
+    text = (
+        document(stops).replace("highway.xodr", "curve.xodr").replace('laneId="-3"', 'laneId="-2"')
+    )
+    found = imported(text).text
+    assert "create_xyz_point(" in found and ", 0m)" not in found.split("create_xyz_point(")[1][:40]
+    assert report_of(tmp_path, text)["measured"]["exact"] is True
+
+
+def test_a_distance_along_the_road_is_no_distance_along_the_lane_in_a_bend(tmp_path: Path) -> None:
+    text = (
+        document("").replace("highway.xodr", "curve.xodr").replace('"-3" s="100"', '"-2" s="220"')
+    )
+    assert 'create_odr_point("1", "-1", 250m, 0m)' in imported(text).text
+    assert report_of(tmp_path, text)["measured"]["exact"] is True

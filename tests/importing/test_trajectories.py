@@ -78,7 +78,8 @@ def test_a_trajectory_at_the_start_puts_its_actor_elsewhere(tmp_path: Path) -> N
     assert report["measured"]["exact"] is True
 
 
-THING = """<ScenarioObject name="thing"><MiscObject name="box" miscObjectCategory="obstacle" mass="1">
+THING = """<ScenarioObject name="thing"><MiscObject name="box"
+  miscObjectCategory="obstacle" mass="1">
   <BoundingBox><Center x="0" y="0" z="0.5"/><Dimensions width="1" length="1" height="1"/>
   </BoundingBox><Properties/></MiscObject></ScenarioObject>"""
 

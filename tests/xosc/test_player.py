@@ -2,6 +2,7 @@
 
 import math
 import re
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -187,7 +188,8 @@ def change(shape: str, dimension: str, value: str, lane: str = "-3") -> str:
     return (
         f'<LateralAction><LaneChangeAction><LaneChangeActionDynamics dynamicsShape="{shape}" '
         f'dynamicsDimension="{dimension}" value="{value}"/><LaneChangeTarget>'
-        f'<AbsoluteTargetLane value="{lane}"/></LaneChangeTarget></LaneChangeAction></LateralAction>'
+        f'<AbsoluteTargetLane value="{lane}"/></LaneChangeTarget></LaneChangeAction>'
+        "</LateralAction>"
     )
 
 
@@ -236,7 +238,7 @@ def test_a_change_by_distance_does_not_proceed_at_standstill() -> None:
 def test_the_rate_of_a_change_is_its_peak(shape: str, length: float) -> None:
     evaluator = played(change(shape, "rate", "1"))
     rows = evaluator.track["other"]
-    fastest = max(abs(b[2] - a[2]) / 0.01 for a, b in zip(rows, rows[1:], strict=False))
+    fastest = max(abs(b[2] - a[2]) / 0.01 for a, b in pairwise(rows))
     assert fastest == pytest.approx(1.0, abs=1e-3)
     assert moved_aside(evaluator, 1.0 + length - 0.1) < LANE - 1e-4
     assert moved_aside(evaluator, 1.0 + length + 0.02) == pytest.approx(LANE, abs=1e-5)

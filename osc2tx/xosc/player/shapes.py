@@ -15,7 +15,7 @@ from osc2tx_runtime.opendrive.geometry import make_spiral
 
 CHORD = 0.01  # m: a chord is nowhere farther from its curve
 END = 1e-3
-"""m: length of the first and the last chord of a clothoid, which have the directions of its ends."""
+"""m: length of the first and last chord of a clothoid, which have the directions of its ends."""
 NEAR_END = 1e-6
 """The same for a NURBS, as a part of the range of its parameter."""
 SPAN_PIECES = 8  # of a span between knots at least
