@@ -71,9 +71,9 @@ class Beside:
     def _is_shorter(self, node: Node, from_: LanePosition, to: LanePosition) -> bool:
         """Whether a distance along the road is another one than along the lane: in a bend."""
         assert self._ground.map is not None
-        if node.has("dsLane"):
-            return False
         ds = self._values.nominal(node, "ds")
+        if node.has("dsLane") or not math.isfinite(ds):
+            return False
         direction = self._ground.map.travel_direction(from_.road, from_.lane)
         there = self._ground.map.advance(from_._replace(offset=0.0), ds * direction).position
         return there.road != to.road or abs(there.s - to.s) > SAME
