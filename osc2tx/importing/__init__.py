@@ -7,7 +7,8 @@
 3. `cast`, `places` (`beside` other actors, `courses` on the map, `points` as texts), `conditions`
    (`entity_conditions`, `place_conditions`, `clearances`) and `actions` (`speeds` with `profiles`,
    `offsets`, `routes`, `surroundings` with `weather` and `signals`): the parts of the storyboard
-4. `steps`: events with their triggers; `structure`: the order of events as compositions of
+4. `board`: the storyboard as `steps`, events with their triggers, one for each of their
+   `executions`; `structure`: the order of events as compositions of
    `statements` (`precedence`: which step ends which, `acts` that are stopped, `joining` what waits
    for several ends), `waiting` the triggers as waits, `starts` how actors begin (`starting`:
    where), `endings` what ends the scenario, `whole` all together

@@ -39,6 +39,7 @@ class Condition:
         node: Where it stands.
         lasting: How long (s) it has to be met.
         kept: The expression that tells whether its event has come.
+        is_once: It is met at a single instant of the run.
     """
 
     kind: str
@@ -51,6 +52,7 @@ class Condition:
     state: str = ""
     lasting: float = 0.0
     kept: str = ""
+    is_once: bool = field(default=False, compare=False)
 
 
 @dataclass
@@ -186,9 +188,10 @@ class Conditions:
         if rule.startswith("greater"):
             if not time.is_open and time.value <= 0.0 and delay is None:
                 return Condition("always", node)
-            return Condition("time", node, quantity=time, delay=delay)
+            once = edge != "none"
+            return Condition("time", node, quantity=time, delay=delay, is_once=once)
         if rule == "equalTo" or (edge == "falling" and time.value > 0.0):
-            return Condition("time", node, quantity=time, delay=delay)
+            return Condition("time", node, quantity=time, delay=delay, is_once=True)
         if time.value > 0.0:
             node.approximate("it is met from the start, and taken to be met always")
             return Condition("always", node)

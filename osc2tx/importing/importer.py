@@ -8,6 +8,7 @@ from pathlib import Path
 
 from osc2tx.importing.actions import Actions
 from osc2tx.importing.carla import is_of_carla, mirrored
+from osc2tx.importing.board import BoardReader
 from osc2tx.importing.cast import Cast
 from osc2tx.importing.conditions import Conditions
 from osc2tx.importing.cursor import Ledger
@@ -27,7 +28,6 @@ from osc2tx.importing.report import ImportReport
 from osc2tx.importing.signals import CONTROLLER, TrafficLights
 from osc2tx.importing.starting import is_straight_ahead
 from osc2tx.importing.starts import Starts
-from osc2tx.importing.steps import BoardReader
 from osc2tx.importing.structure import Structure
 from osc2tx.importing.substitution import with_values
 from osc2tx.importing.surroundings import ENVIRONMENT, Surroundings

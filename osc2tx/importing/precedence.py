@@ -22,6 +22,8 @@ def replaces_at_once(later: Step, earlier: Step) -> bool:
     """Whether a step takes over the motion from an earlier one without duration, on one trigger."""
     if isinstance(later, Block) or isinstance(earlier, Block) or later.act != earlier.act:
         return False
+    if later.before:  # another execution waits for its trigger anew
+        return False
     return (
         bool(later.slots & earlier.slots)
         and all(each.statement.length == 0.0 for each in earlier.effects)

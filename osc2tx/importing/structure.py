@@ -78,7 +78,10 @@ class Structure:
             scope: The steps of its act, or of the document.
             alike: Those before it that start when it does.
         """
-        found = [each for each in self._ends_in(step.trigger) if each is not step]
+        found = self._waiting.last_of(step.before) if step.before else []
+        if len(found) > 1:
+            step.triggers = step.triggers[0], self._waiting.behind(step.triggers[1], step)
+        found = found or [each for each in self._ends_in(step.trigger) if each is not step]
         if not found:
             found = [each for each in alike if replaces_at_once(step, each)][-1:]
         if len(found) == 1 and found[0] in scope and not self._leads_to(step, found[0]):

@@ -42,9 +42,21 @@ class Waiting:
     def steps_of(self, condition: Condition) -> list[Step]:
         """Return the last steps of what a condition is about."""
         found = self._board.elements.get(condition.element, [])
-        return [
-            step for step in found if not any(self.predecessor.get(each) is step for each in found)
-        ]
+        if condition.state == "endTransition":  # of the first execution
+            found = [each for each in found if not any(a in found for a in each.before)]
+        return self.last_of(found)
+
+    def last_of(self, steps: Sequence[Step]) -> list[Step]:
+        """Return those of some steps behind which none of them comes."""
+        return [each for each in steps if not any(self.predecessor.get(a) is each for a in steps)]
+
+    def behind(self, trigger: Trigger, step: Step) -> Trigger:
+        """Return a trigger that waits for the execution before a step as well."""
+        element = "execution", step.label
+        self._board.elements[element] = list(step.before)
+        done = Condition("state", step.node, element=element, state="completeState")
+        groups = [[done, *group] for group in trigger.groups] or [[done]]
+        return Trigger(groups, trigger.node, trigger.after)
 
     def waits(self, trigger: Trigger, behind: Step | None = None) -> list[Statement]:
         """Return what waits for a trigger; `behind`: it comes after this step."""

@@ -15,7 +15,7 @@ from osc2tx.xosc.element import Unresolved
 from osc2tx.xosc.player import Evaluator, Unplayable, map_of
 from osc2tx_runtime.opendrive import LanePosition, read_map
 from osc2tx_shared.map_files import SHIPPED
-from tests.importing.documents import at_time, document, event, speed_change
+from tests.importing.documents import after, at_time, document, event, speed_change
 
 GENERATED = Path(__file__).parents[2] / "generated"
 TEXT = (GENERATED / "cut_in.xosc").read_text(encoding="utf-8")
@@ -29,7 +29,6 @@ CYCLE = (
 @pytest.mark.parametrize(
     ("before", "after", "reason"),
     [
-        ('maximumExecutionCount="1">', 'maximumExecutionCount="2">', "repeated is not played"),
         ("</RoadNetwork>", CYCLE, "cycle that takes no time"),
         ("TeleportAction", "VisibilityAction", "<VisibilityAction> is not played"),
     ],
@@ -252,3 +251,50 @@ def test_a_change_of_the_speed_from_standstill_to_standstill_takes_no_way() -> N
     stays = speed_change("0").replace('"time" value="4"', '"distance" value="20"')
     evaluator = played(stays, speed="0")
     assert evaluator.track["other"][-1][1] == evaluator.track["other"][0][1]
+
+
+# --- groups that are executed several times -------------------------------------------------------
+
+
+def group_of(count: str, events: str) -> Evaluator:
+    """Return the run of a document whose only group is executed several times."""
+    text = document(events, end=at_time("20"))
+    text = text.replace('maximumExecutionCount="1"', f'maximumExecutionCount="{count}"')
+    evaluator = Evaluator(plain(read(text)), MAP, 0.01)
+    evaluator.play(20.0)
+    return evaluator
+
+
+def speed_at(evaluator: Evaluator, time: float) -> float:
+    return evaluator.track["other"][round(time / 0.01)][3]
+
+
+@pytest.mark.parametrize("count", ["1", "2", "3"])
+def test_a_group_begins_anew_when_its_events_are_over(count: str) -> None:
+    """Each execution takes 2 s: 20 m/s, then 15 m/s again."""
+    away = event("Away", speed_change("20", "1"), at_time("1"), "parallel")
+    back = event("Back", speed_change("15", "1"), after("Away"), "parallel")
+    evaluator = group_of(count, away + back)
+    executed = [speed_at(evaluator, 2.05 + 2.02 * index) > 19.0 for index in range(4)]
+    assert executed == [index < int(count) for index in range(4)]
+    assert speed_at(evaluator, 19.0) == 15.0
+
+
+def test_an_edge_is_waited_for_anew_in_each_execution() -> None:
+    """A time has come once; in the second execution its condition is true from the first look."""
+    rising = at_time("1").replace('conditionEdge="none"', 'conditionEdge="rising"')
+    away = event("Away", speed_change("20", "1"), rising, "parallel")
+    evaluator = group_of("3", away + event("Back", speed_change("15", "1"), after("Away")))
+    assert speed_at(evaluator, 2.05) > 19.0
+    assert [speed_at(evaluator, time) for time in (6.1, 19.0)] == [15.0, 15.0]
+
+
+def test_an_act_ends_with_the_last_execution_of_its_group() -> None:
+    evaluator = group_of("2", event("Away", speed_change("20", "1"), at_time("1")))
+    act = next(evaluator.root.below(xml.Act))
+    group = next(act.below(xml.ManeuverGroup))
+    assert evaluator.is_in(act, "completeState")
+    assert evaluator.is_in(group, "completeState")
+    waits = group_of("2", event("Away", speed_change("20", "1"), at_time("30")))
+    group = next(waits.root.below(xml.ManeuverGroup))
+    assert waits.is_in(group, "standbyState")

@@ -79,3 +79,7 @@ class Agenda:
     def drop(self, number: int) -> None:
         """Look at an event no more."""
         self._awake.remove(number)
+
+    def take_up(self, number: int) -> None:
+        """Look at an event again that was dropped."""
+        self._awake.add(number)

@@ -128,6 +128,11 @@ class Conditions:
             return any([self._false_one(group) is None for group in groups])
         return any([self._all_hold(group.children) for group in groups])
 
+    def forget(self, trigger: Element) -> None:
+        """Forget the past of the conditions of a trigger, which are looked at anew."""
+        for condition in trigger.below(xml.Condition):
+            self.looked.pop(id(condition), None)
+
     def awaited(self, trigger: Element) -> Awaited | None:
         """Return the causes of a trigger that does not fire; None if it is evaluated at each step.
 

@@ -155,10 +155,18 @@ class Evaluator:
             self.transitions.clear()
             self._run_cycles()
             if self._settle():
+                self._note_arrivals()
                 return self.time
             self.stage.advance(self.time)
             self.step += 1
         return math.inf
+
+    def _note_arrivals(self) -> None:
+        """Take down where entities are put at the end, besides where they have been before."""
+        for name, body in self.bodies.items():
+            rows = self.track[name]
+            if rows and body.here[:2] != rows[-1][1:3]:
+                rows.append((self.time, *body.here[:2], body.v))
 
     def _is_lost(self, body: Body) -> bool:
         """Whether an entity is behind a fork in a lane change, or against the traffic."""
@@ -194,10 +202,13 @@ class Evaluator:
         inner = {self._state(event) for event in element.below(xml.Event)}
         if inner == {"completeState"}:
             return state == "completeState"
-        return state == ("standbyState" if inner == {"standbyState"} else "runningState")
+        is_begun = inner != {"standbyState"} or id(element) in self.counts
+        return state == ("runningState" if is_begun else "standbyState")
 
     def _turns(self, element: Element, state: str) -> bool:
         """Whether a group of events is in a transition: with its first one, or with its last."""
+        if (id(element), state) in self.transitions:
+            return True
         events = list(element.below(xml.Event))
         if not any((id(event), state) in self.transitions for event in events):
             return False
@@ -254,10 +265,30 @@ class Evaluator:
                 self._put_off(events[index][0], agenda, index)
             if self._state(events[index][0]) == "completeState":
                 agenda.drop(index)
+        for group in act.all(xml.ManeuverGroup):
+            changed = self._repeat(group, agenda) or changed
         if agenda.is_over:
             self._enter(act, "completeState", "endTransition")
             changed = True
         return changed
+
+    def _repeat(self, group: xml.ManeuverGroup, agenda: Agenda) -> bool:
+        """Execute a group again that has come to its end, if it may be; return whether it is."""
+        done = self.counts.get(id(group), 0) + 1
+        events = list(group.below(xml.Event))
+        is_over = all(self._state(event) == "completeState" for event in events)
+        if not is_over or not events or done >= group.maximumExecutionCount:
+            return False
+        self.counts[id(group)] = done
+        self.transitions.add((id(group), "endTransition"))
+        for event in events:
+            self.counts[id(event)] = 0
+            agenda.take_up(self._place[id(event)][1])
+            self._enter(event, "standbyState")
+            trigger = event.find(xml.StartTrigger)
+            if trigger is not None:
+                self.conditions.forget(trigger)
+        return True
 
     def _put_off(self, event: xml.Event, agenda: Agenda, index: int) -> None:
         """Let an unchanged event wait for the causes of its trigger."""
@@ -382,15 +413,9 @@ class Evaluator:
 
 
 def _members(act: xml.Act) -> list[Member]:
-    """Return the events of an act.
-
-    Raises:
-        Unplayable: A group of them is repeated.
-    """
+    """Return the events of an act."""
     found: list[Member] = []
     for group in act.all(xml.ManeuverGroup):
-        if group.maximumExecutionCount != 1:
-            raise Unplayable("a maneuver group that is repeated is not played", group.place)
         for maneuver in group.all(xml.Maneuver):
             beside = tuple(maneuver.all(xml.Event))
             found += [(event, beside, group) for event in beside]

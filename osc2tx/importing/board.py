@@ -1,0 +1,189 @@
+"""Reads the stories of a document as steps."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+
+from osc2tx.importing.actions import Actions
+from osc2tx.importing.conditions import Conditions, Trigger
+from osc2tx.importing.cursor import Node
+from osc2tx.importing.effects import Effect
+from osc2tx.importing.executions import is_first, may_start_again, name_within, put_behind
+from osc2tx.importing.names import Names, short
+from osc2tx.importing.steps import Board, Step
+from osc2tx.importing.values import Values
+from osc2tx.xosc.element import Element, Unresolved
+
+MOST_EXECUTIONS = 5
+"""Of events and groups with more there is only the first one."""
+ONLY_FIRST = "of {:g} executions only the first is here"
+
+
+class BoardReader:
+    """Reads the stories of a document."""
+
+    def __init__(
+        self,
+        values: Values,
+        names: Names,
+        actions: Actions,
+        conditions: Conditions,
+        comments_of: Callable[[Element], list[str]],
+    ) -> None:
+        self._values, self._names = values, names
+        self._actions, self._conditions = actions, conditions
+        self._comments_of = comments_of
+        self._maneuvers = 0
+        self._around: list[str] = []
+        self.board = Board()
+
+    def read(self, storyboard: Node) -> Board:
+        """Return the storyboard."""
+        number = 0
+        for story in storyboard.children("Story"):
+            for act in story.children("Act"):
+                number += 1
+                first = len(self.board.steps)
+                with self._within(story):
+                    with self._within(act):
+                        self._act(act, number)
+                    self._know("act", act, self.board.steps[first:])
+                self._know("story", story, self.board.steps[first:])
+            for each in story.children("ParameterDeclarations"):
+                if each.element.children:
+                    each.leave_out("parameters of a story are not imported")
+        self.board.end = self._conditions.trigger(storyboard.find("StopTrigger"))
+        return self.board
+
+    def _know(self, kind: str, node: Node, steps: Sequence[Step]) -> None:
+        """Note the steps of an element, by its name and by that with names of those around it."""
+        name = node.element.get("name") or ""
+        for index in range(len(self._around), -1, -1):
+            key = "::".join((*self._around[index:], name))
+            self.board.elements.setdefault((kind, key), []).extend(steps)
+
+    @contextmanager
+    def _within(self, node: Node) -> Iterator[None]:
+        """Let what is read be known as a part of an element."""
+        self._around.append(node.element.get("name") or "")
+        yield
+        self._around.pop()
+
+    def _act(self, act: Node, number: int) -> None:
+        trigger = self._conditions.trigger(act.find("StartTrigger"))
+        stop = act.find("StopTrigger")
+        if stop is not None and stop.element.children:
+            self.board.stops[number] = self._conditions.trigger(stop)
+        for group in act.children("ManeuverGroup"):
+            self._group(group, trigger, number)
+
+    def _group(self, group: Node, act: Trigger, number: int) -> None:
+        """Read the executions of a group of maneuvers."""
+        first, actors = len(self.board.steps), list(self._actors(group))
+        maneuvers, times = list(self._maneuvers_of(group)), self._executions(group)
+        before: list[Step] = []
+        for execution in range(times):
+            start = len(self.board.steps)
+            is_whole = all([self._maneuver(each, group, actors, act, number) for each in maneuvers])
+            steps = self.board.steps[start:]
+            if times > 1:
+                name_within(steps, self.board, execution)
+            if before:
+                put_behind(steps, before, self.board)
+            if execution + 1 < times and not self._repeats(steps, group, is_whole):
+                break
+            before = steps
+        self._know("maneuverGroup", group, self.board.steps[first:])
+
+    def _repeats(self, steps: Sequence[Step], node: Node, is_whole: bool) -> bool:
+        """Whether what has been executed comes again as a whole; a finding says if parts do."""
+        if not is_whole or not steps:
+            return False
+        comes = [each for each in steps if may_start_again(each, steps, self.board)]
+        if len(comes) == len(steps):
+            return True
+        if any(is_first(each, steps, self.board) for each in comes):
+            count = self._values.fixed(node, "maximumExecutionCount", 1.0)
+            node.approximate(ONLY_FIRST.format(count))
+        return False
+
+    def _maneuver(
+        self, maneuver: Node, group: Node, actors: Sequence[str], act: Trigger, number: int
+    ) -> bool:
+        """Read a maneuver; return whether all of its events may come."""
+        self._maneuvers += 1
+        start = len(self.board.steps)
+        with self._within(group):
+            with self._within(maneuver):
+                events = list(maneuver.children("Event"))
+                found = [self._event(event, actors, act, number) for event in events]
+            self._know("maneuver", maneuver, self.board.steps[start:])
+        return all(found)
+
+    def _actors(self, group: Node) -> Iterator[str]:
+        holder = group.find("Actors")
+        if holder is None:
+            return
+        if (holder.text("selectTriggeringEntities") or "false").lower() in ("true", "1"):
+            holder.approximate("actors are those that are named, not those that trigger")
+        for ref in holder.children("EntityRef"):
+            yield self._values.text(ref, "entityRef")
+
+    def _maneuvers_of(self, group: Node) -> Iterator[Node]:
+        yield from group.children("Maneuver")
+        for reference in group.children("CatalogReference"):
+            entry = self._values.entry(reference)
+            if entry is not None:
+                yield entry
+
+    def _executions(self, node: Node) -> int:
+        """Return how often an event or a group is executed at most."""
+        count = self._values.fixed(node, "maximumExecutionCount", 1.0)
+        if count > MOST_EXECUTIONS:
+            node.approximate(ONLY_FIRST.format(count))
+            return 1
+        return max(int(count), 1)
+
+    def _event(self, event: Node, actors: Sequence[str], act: Trigger, number: int) -> bool:
+        """Read the executions of an event; return whether it may come."""
+        said = event.text("name") or ""
+        priority = event.text("priority") or "parallel"
+        if priority == "skip":
+            event.approximate("it starts even if another event of its maneuver is going on")
+        times = 1
+        try:
+            times = self._executions(event)
+        except Unresolved as error:
+            event.leave_out(error.reason)
+        steps: list[Step] = []
+        for _ in range(times):
+            trigger = self._conditions.trigger(event.find("StartTrigger"))
+            if any(each.kind == "never" for on in (act, trigger) for g in on.groups for each in g):
+                event.leave_out("its trigger is never met here")
+                return False
+            label = self._names.new("" if steps else said, kind="event", base=short(said))
+            self._actions.readings.begin = max(act.time, trigger.time)
+            effects = list(self._effects(event, actors))
+            overrides = priority in ("override", "overwrite")
+            step = Step(label, effects, (act, trigger), number, self._maneuvers, overrides, event)
+            step.comments = self._comments_of(event.element)
+            if steps:
+                put_behind([step], steps[-1:], self.board)
+            steps.append(step)
+            if len(steps) == times or not self._repeats([step], event, True):
+                break
+            if not effects:  # what comes again does nothing
+                event.approximate(ONLY_FIRST.format(times))
+                break
+        self.board.steps += steps
+        self._know("event", event, steps)
+        with self._within(event):
+            for action in event.children("Action"):
+                self._know("action", action, steps)
+        return True
+
+    def _effects(self, event: Node, actors: Sequence[str]) -> Iterator[Effect]:
+        for action in event.children("Action"):
+            for each in action.children():
+                yield from self._actions.effects(each, actors)
