@@ -7,8 +7,8 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from osc2tx.importing.actions import Actions
-from osc2tx.importing.carla import is_of_carla, mirrored
 from osc2tx.importing.board import BoardReader
+from osc2tx.importing.carla import is_of_carla, mirrored
 from osc2tx.importing.cast import Cast
 from osc2tx.importing.conditions import Conditions
 from osc2tx.importing.cursor import Ledger
