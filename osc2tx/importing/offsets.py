@@ -20,6 +20,8 @@ from osc2tx.importing.effects import LATERAL, PROFILES, Effect, Reader, of_dynam
 from osc2tx.importing.statements import Statement, call
 from osc2tx.xosc.element import Unresolved
 from osc2tx.xosc.player.courses import PEAK_RATES
+from osc2tx.xosc.player.places import centre
+from osc2tx_runtime.opendrive import LanePosition
 
 SHIFT_FACTORS = {"sinusoidal": 0.5 * math.pi**2, "linear": 0.5 * math.pi**2, "cubic": 6.0}
 
@@ -163,18 +165,20 @@ class Offsets(Reader):
     def _lane_offset(self, node: Node, said: str, actor: Actor) -> Statement | None:
         target = node.one("LaneOffsetTarget").inner
         offset = self._values.quantity(target, "value", LENGTH)
-        beside = 0.0
+        beside, sign = 0.0, self._along(said)
         if target.tag == "RelativeTargetLaneOffset":
             reference = self._values.text(target, "entityRef")
-            beside = self._offset_of(reference)
             target.approximate(f"the offset of {reference} is the one that it was given last")
+            beside = self._offset_beside(said, reference)
+            body = self._places.bodies.get(reference)
+            sign *= self._along(reference) * (1 if body is None else body.along)
         dynamics = node.one("LaneOffsetActionDynamics")
         shape = dynamics.text("dynamicsShape") or "step"
         peak = self._values.nominal(dynamics, "maxLateralAcc", math.inf)
         continuous = (node.text("continuous") or "false").lower() in ("true", "1")
-        after = offset.value * self._along(said) + beside
+        after = offset.value * sign + beside
         change = abs(after - self._offset_of(said))
-        self._offsets[said] = after
+        self._shift(said, after)
         time = math.sqrt(SHIFT_FACTORS.get(shape, 0.0) * change / peak) if peak > 0.0 else 0.0
         if time <= 0.0 or shape == "step":
             node.approximate(
@@ -183,7 +187,7 @@ class Offsets(Reader):
             time = 1.0
         elif offset.is_open:
             node.approximate("the change takes as long as that of the nominal values")
-        text = total(LENGTH, (self._along(said), offset), (1, Quantity("", round(beside, 6)))).text
+        text = total(LENGTH, (sign, offset), (1, Quantity("", round(beside, 6)))).text
         arguments = {"offset": text, "rate_profile": PROFILES.get(shape, "smooth")}
         if change > 0.0:
             fastest = change / time * (1.0 if shape == "linear" else 0.5 * math.pi)
@@ -192,6 +196,39 @@ class Offsets(Reader):
         if continuous:
             node.approximate("an offset that is kept ends here when it is reached")
         return Statement(call(actor.name, "follow_lane", **arguments), length=time)
+
+    def _shift(self, said: str, offset: float) -> None:
+        """Note the offset of an actor, which may take it into another lane."""
+        self._offsets[said] = offset
+        body, road_map = self._places.bodies.get(said), self._places.map
+        place = None if body is None or road_map is None else body.lane(road_map)
+        if place is None or road_map is None:
+            return
+        lane = self._lanes.get(said, place.lane)
+        if lane is None:
+            return
+        pose = road_map.pose(place._replace(lane=lane, offset=offset))
+        there = road_map.locate(pose.x, pose.y, heading=pose.h)
+        if there is not None and there.road == place.road and there.lane != lane:
+            self._lanes[said], self._offsets[said] = there.lane, there.offset
+
+    def _offset_beside(self, said: str, reference: str) -> float:
+        """Return the offset (m) at which an actor is as far across the road as another one."""
+        theirs, mine = self._across(reference, self._offset_of(reference)), self._across(said, 0.0)
+        if theirs is None or mine is None or theirs[0] != mine[0]:
+            return self._offset_of(reference)
+        return (theirs[1] - mine[1]) * self._along(said)
+
+    def _across(self, said: str, offset: float) -> tuple[str, float] | None:
+        """Return the road of an actor and its t (m) there, with an offset in its lane."""
+        body, road_map = self._places.bodies.get(said), self._places.map
+        if body is None or body.place is None or road_map is None:
+            return None
+        place = body.lane(road_map)
+        lane = None if place is None else self._lanes.get(said, place.lane)
+        if place is None or lane is None:
+            return None
+        return place.road, centre(road_map, LanePosition(place.road, lane, place.s, offset))
 
     def _offset_of(self, said: str) -> float:
         """Return the offset (m) of an actor in its lane that was commanded last, to the left."""

@@ -2,6 +2,8 @@
 
 import re
 
+import pytest
+
 from tests.importing.documents import (
     AT_ONCE,
     at_time,
@@ -113,10 +115,23 @@ def test_an_offset_is_reached_with_the_lateral_acceleration_of_the_document() ->
     assert apart(found) < 0.1
 
 
-def test_an_offset_beside_that_of_another_actor() -> None:
-    action = offset_change('<RelativeTargetLaneOffset entityRef="ego" value="1"/>')
+@pytest.mark.parametrize("value", ["3", "-0.5"])
+def test_an_offset_beside_another_actor(value: str) -> None:
+    """It counts from there, 3.5 m to the right of the own lane."""
+    action = offset_change(f'<RelativeTargetLaneOffset entityRef="ego" value="{value}"/>')
     found = imported(document(event("Aside", action, at_time("1"))))
     assert faults(found) == []
+    assert f"offset: {float(value) - 3.5:g}m" in found.text
+    assert apart(found) < 0.1
+
+
+def test_an_offset_into_another_lane_counts_there_from_then_on() -> None:
+    """At 3 m to the right of its lane it is in the one of `ego`, 0.5 m beside that one."""
+    aside = offset_change('<AbsoluteTargetLaneOffset value="-3"/>')
+    back = offset_change('<RelativeTargetLaneOffset entityRef="ego" value="0"/>')
+    found = imported(
+        document(event("Aside", aside, at_time("1")) + event("Back", back, at_time("7")))
+    )
     assert apart(found) < 0.1
 
 

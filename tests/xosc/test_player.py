@@ -298,3 +298,27 @@ def test_an_act_ends_with_the_last_execution_of_its_group() -> None:
     waits = group_of("2", event("Away", speed_change("20", "1"), at_time("30")))
     group = next(waits.root.below(xml.ManeuverGroup))
     assert waits.is_in(group, "standbyState")
+
+
+@pytest.mark.parametrize(
+    ("reference", "value", "expected"),
+    [
+        ('laneId="-3" s="100" offset="0"', "1", -7.75),  # its centre lies at -8.75 m
+        ('laneId="-3" s="100" offset="-0.5"', "1", -8.25),
+        ('laneId="1" s="900" offset="0"', "3", -1.25),  # its left is the right of the road
+    ],
+)
+def test_an_offset_relative_to_another_entity(reference: str, value: str, expected: float) -> None:
+    """It counts from where that one is across the road, in whatever lane, to its left."""
+    action = (
+        '<LateralAction><LaneOffsetAction continuous="false"><LaneOffsetActionDynamics '
+        'dynamicsShape="sinusoidal" maxLateralAcc="2"/><LaneOffsetTarget><RelativeTargetLaneOffset '
+        f'entityRef="ego" value="{value}"/></LaneOffsetTarget></LaneOffsetAction></LateralAction>'
+    )
+    text = document(event("It", action, at_time("1")), end=at_time("9"))
+    place = '<RelativeLanePosition entityRef="ego" dLane="1" ds="30" offset="0"/>'
+    text = text.replace(place, '<LanePosition roadId="1" laneId="-2" s="130" offset="0"/>')
+    text = text.replace('laneId="-3" s="100" offset="0"', reference)
+    evaluator = Evaluator(plain(read(text)), MAP, 0.01)
+    evaluator.play(9.0)
+    assert evaluator.track["other"][-1][2] == pytest.approx(expected)

@@ -9,7 +9,7 @@ from osc2tx.xosc.element import Element
 from osc2tx.xosc.player.bodies import LATERAL, Body, Running
 from osc2tx.xosc.player.courses import PEAK_RATES, Course, number, shaped
 from osc2tx.xosc.player.errors import Unplayable
-from osc2tx.xosc.player.places import beside, offset_of
+from osc2tx.xosc.player.places import beside, centre, offset_of
 from osc2tx.xosc.player.scene import GAP_REACHED, Scene
 from osc2tx_runtime.opendrive import LanePosition
 
@@ -90,7 +90,8 @@ class Offsets:
     def _to_offset(self, body: Body, node: Element) -> tuple[float, Course]:
         """Return length and course of a change of the offset, whose acceleration has a peak.
 
-        Offsets of the document count along t of the road, those of bodies to the left of travel.
+        Offsets of the document count along t of the road, those beside an entity to its left, those
+        of bodies to the left of travel.
         """
         place = body.in_lane(self._scene.map)
         body.place = place._replace(offset=offset_of(self._scene.map, place, body.here))
@@ -98,8 +99,9 @@ class Offsets:
         end = number(target, "value")
         if target.tag == "RelativeTargetLaneOffset":
             other = self._scene.bodies[target.said("entityRef")]
-            theirs = other.in_lane(self._scene.map)
-            end += theirs.offset * self._direction(theirs)
+            theirs, road_map = other.in_lane(self._scene.map), self._scene.map
+            apart = centre(road_map, theirs) - centre(road_map, place._replace(offset=0.0))
+            end = apart + end * self._direction(theirs) * other.along
         end *= self._direction(place)
         dynamics = node.one(xml.LaneOffsetActionDynamics)
         shape, peak = dynamics.said("dynamicsShape"), number(dynamics, "maxLateralAcc", math.inf)
