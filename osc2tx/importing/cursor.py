@@ -246,15 +246,16 @@ class Node:
         self._grade("left out", reason)
         self.use_all()
 
-    def approximate(self, reason: str) -> None:
-        """Report that it is only said nearly."""
-        self._grade("approximated", reason)
+    def approximate(self, reason: str, *, bound: float | None = None) -> None:
+        """Report that it is only said nearly; `bound`: by so many metres at most."""
+        self._grade("approximated", reason, bound)
 
-    def _grade(self, grade: str, reason: str) -> None:
+    def _grade(self, grade: str, reason: str, bound: float | None = None) -> None:
         self._ledger.report.add(
             "left out" if grade == "left out" else "approximated",
             f"<{self.tag}>",
             reason,
             self.place,
             file=self.file,
+            bound=bound,
         )

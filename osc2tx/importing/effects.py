@@ -7,14 +7,26 @@ from dataclasses import field
 
 from osc2tx.importing.cast import Actor
 from osc2tx.importing.cursor import Node
-from osc2tx.importing.dimensions import ACCELERATION, LENGTH, SPEED, TIME, Dimension, Quantity
+from osc2tx.importing.dimensions import (
+    ACCELERATION,
+    LENGTH,
+    PRODUCT,
+    SPEED,
+    TIME,
+    Dimension,
+    Quantity,
+    literal,
+)
 from osc2tx.importing.places import Places
 from osc2tx.importing.statements import Statement
 from osc2tx.importing.values import Values
+from osc2tx.xosc.player.courses import PEAK_RATES
 from osc2tx_shared.classes import dataclass
 
 LONGITUDINAL, LATERAL = "longitudinal", "lateral"
 BOTH = frozenset((LONGITUDINAL, LATERAL))
+CUBIC = 0.0101
+"""So large a part of a change a cubic course is at most from half a cosine that takes as long."""
 PROFILES = {"linear": "constant", "sinusoidal": "smooth", "cubic": "smooth"}
 
 
@@ -70,3 +82,11 @@ def of_dynamics(node: Node) -> Dimension:
     dimension = node.text("dynamicsDimension") or "time"
     rate = ACCELERATION if node.tag == "SpeedActionDynamics" else SPEED
     return {"time": TIME, "distance": LENGTH, "rate": rate}.get(dimension, TIME)
+
+
+def smooth_peak(cubic: Quantity, dimension: Dimension) -> str:
+    """Return the peak rate of a smooth change that takes as long as a cubic one with its peak."""
+    ratio = PEAK_RATES["sinusoidal"] / PEAK_RATES["cubic"]
+    if cubic.is_open:
+        return f"{ratio:.6f} * {cubic.within(PRODUCT)}"
+    return literal(round(ratio * cubic.value, 6), dimension)

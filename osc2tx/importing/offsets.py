@@ -16,10 +16,17 @@ from osc2tx.importing.dimensions import (
     literal,
     total,
 )
-from osc2tx.importing.effects import LATERAL, PROFILES, Effect, Reader, of_dynamics
+from osc2tx.importing.effects import (
+    CUBIC,
+    LATERAL,
+    PROFILES,
+    Effect,
+    Reader,
+    of_dynamics,
+    smooth_peak,
+)
 from osc2tx.importing.statements import Statement, call
 from osc2tx.xosc.element import Unresolved
-from osc2tx.xosc.player.courses import PEAK_RATES
 from osc2tx.xosc.player.places import centre
 from osc2tx_runtime.opendrive import LanePosition
 
@@ -85,7 +92,9 @@ class Offsets(Reader):
             arguments |= {"rate_profile": "constant", "duration": "0.1s"}
             return Statement(call(actor.name, "change_lane", **arguments), length=0.1)
         if shape == "cubic":
-            dynamics.approximate("a cubic course across the road is smooth here")
+            dynamics.approximate(
+                f"a cubic course is smooth here, {CUBIC:.1%} of its way off at most"
+            )
         if shape == "linear":
             arguments["rate_profile"] = "constant"
         if dimension == "time":
@@ -94,7 +103,7 @@ class Offsets(Reader):
         elif dimension == "rate":
             if shape != "linear":
                 arguments["rate_profile"] = "smooth"
-            arguments["rate_peak"] = _smooth_peak(value) if shape == "cubic" else value.text
+            arguments["rate_peak"] = smooth_peak(value, SPEED) if shape == "cubic" else value.text
         else:
             now = self._speeds.get(said)
             if now is None or now.value <= 0.0:
@@ -187,6 +196,9 @@ class Offsets(Reader):
             time = 1.0
         elif offset.is_open:
             node.approximate("the change takes as long as that of the nominal values")
+        if shape == "cubic":
+            said_off = f"a cubic course is smooth here, {CUBIC:.1%} of its way off at most"
+            dynamics.approximate(said_off, bound=math.ceil(CUBIC * change * 1e3) / 1e3)
         text = total(LENGTH, (sign, offset), (1, Quantity("", round(beside, 6)))).text
         arguments = {"offset": text, "rate_profile": PROFILES.get(shape, "smooth")}
         if change > 0.0:
@@ -239,11 +251,3 @@ class Offsets(Reader):
             return 0.0
         place = body.lane(road_map)  # the one that it is in, which it may not be said to be in
         return 0.0 if place is None else place.offset
-
-
-def _smooth_peak(cubic: Quantity) -> str:
-    """Return the peak rate of a smooth change that takes as long as a cubic one with its peak."""
-    ratio = PEAK_RATES["sinusoidal"] / PEAK_RATES["cubic"]
-    if cubic.is_open:
-        return f"{ratio:.6f} * {cubic.within(PRODUCT)}"
-    return literal(round(ratio * cubic.value, 6), SPEED)

@@ -119,10 +119,17 @@ class ImportReport:
             self.findings.append(what)
 
     def add(
-        self, grade: Grade, construct: str, reason: str, place: Place | None, *, file: str = ""
+        self,
+        grade: Grade,
+        construct: str,
+        reason: str,
+        place: Place | None,
+        *,
+        file: str = "",
+        bound: float | None = None,
     ) -> None:
         """Take a finding, unless it is known."""
-        finding = Finding(grade, construct, reason, place, file)
+        finding = Finding(grade, construct, reason, place, file, bound)
         if finding not in self.findings:
             self.findings.append(finding)
 

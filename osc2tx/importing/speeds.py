@@ -18,7 +18,16 @@ from osc2tx.importing.dimensions import (
     literal,
     total,
 )
-from osc2tx.importing.effects import LONGITUDINAL, PROFILES, Effect, Reader, Readings, of_dynamics
+from osc2tx.importing.effects import (
+    CUBIC,
+    LONGITUDINAL,
+    PROFILES,
+    Effect,
+    Reader,
+    Readings,
+    of_dynamics,
+    smooth_peak,
+)
 from osc2tx.importing.profiles import Profiles
 from osc2tx.importing.starting import is_ahead
 from osc2tx.importing.statements import Statement, call, composed
@@ -73,7 +82,9 @@ class Speeds(Reader):
             dynamics.idle("the speed is there at once")
             return Statement(call(actor.name, "assign_speed", target.text), length=0.0)
         if shape == "cubic":
-            dynamics.approximate("a cubic course of the speed is smooth here")
+            dynamics.approximate(
+                f"a cubic course of the speed is smooth here, {CUBIC:.1%} of its change off at most"
+            )
         arguments = {"target": target.text, "rate_profile": PROFILES.get(shape, "constant")}
         limit = self._limit_within(said, before, target, shape, value.value, dimension)
         if limit is not None:
@@ -95,7 +106,8 @@ class Speeds(Reader):
             length = None
             if before is not None:
                 length = abs(target.value - before.value) / value.value * _peak(shape)
-            arguments["rate_peak"] = value.text
+            is_cubic = shape == "cubic"
+            arguments["rate_peak"] = smooth_peak(value, ACCELERATION) if is_cubic else value.text
             return Statement(call(actor.name, "change_speed", **arguments), length=length)
         if before is not None and before.value + target.value > 0.0:
             time = Quantity(

@@ -148,3 +148,23 @@ def test_an_actor_of_several_branches_holds_its_speed_in_bends(tmp_path: Path) -
     text = text.replace('<AbsoluteTargetSpeed value="15"/>', '<AbsoluteTargetSpeed value="25"/>')
     assert "other.keep_speed()" in imported(text).text
     assert is_same(text, tmp_path)
+
+
+def test_a_cubic_change_of_the_speed_at_a_rate_takes_as_long(tmp_path: Path) -> None:
+    """1.5 of 3 m/s at a peak of 3 m/s^2, 1.5 s; half a cosine with that peak takes 0.07 s more."""
+    at_a_rate = change("18", "3", "cubic").replace('Dimension="time"', 'Dimension="rate"')
+    text = document(event("Faster", at_a_rate, at_time("1")))
+    assert "rate_peak: 3.141593mpss" in imported(text).text
+    assert is_same(text, tmp_path)
+
+
+def test_a_cubic_change_of_the_offset_has_a_bound(tmp_path: Path) -> None:
+    """Of 7 m."""
+    action = """<LateralAction><LaneOffsetAction continuous="false"><LaneOffsetActionDynamics
+      dynamicsShape="cubic" maxLateralAcc="1"/><LaneOffsetTarget>
+      <AbsoluteTargetLaneOffset value="-7"/></LaneOffsetTarget></LaneOffsetAction></LateralAction>"""
+    text = document(event("Aside", action, at_time("1")), end=at_time("11"))
+    found = imported(text)
+    (bound,) = {each.bound for each in found.report.findings if "cubic" in each.reason}
+    assert bound == pytest.approx(0.0101 * 7.0, abs=1e-3)
+    assert is_same(text, tmp_path)
