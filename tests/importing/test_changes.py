@@ -162,7 +162,8 @@ def test_a_cubic_change_of_the_offset_has_a_bound(tmp_path: Path) -> None:
     """Of 7 m."""
     action = """<LateralAction><LaneOffsetAction continuous="false"><LaneOffsetActionDynamics
       dynamicsShape="cubic" maxLateralAcc="1"/><LaneOffsetTarget>
-      <AbsoluteTargetLaneOffset value="-7"/></LaneOffsetTarget></LaneOffsetAction></LateralAction>"""
+      <AbsoluteTargetLaneOffset value="-7"/></LaneOffsetTarget></LaneOffsetAction>
+      </LateralAction>"""
     text = document(event("Aside", action, at_time("1")), end=at_time("11"))
     found = imported(text)
     (bound,) = {each.bound for each in found.report.findings if "cubic" in each.reason}
