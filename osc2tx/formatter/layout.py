@@ -11,7 +11,9 @@ from osc2tx.syntax.tokens import KEYWORDS, PUNCTUATION
 LINE_LENGTH = 100
 INDENT_WIDTH = 4
 
-_COMMA = PUNCTUATION[","]
+BEHIND = 2
+"""Closing brackets that are behind those of a call in others."""
+_COMMA, _LIST = PUNCTUATION[","], PUNCTUATION["["]
 _LOGIC = frozenset({KEYWORDS["and"], KEYWORDS["or"], PUNCTUATION["=>"]})
 _COMPARISONS = frozenset(PUNCTUATION[sign] for sign in ("==", "!=", "<", "<=", ">", ">="))
 
@@ -22,6 +24,7 @@ def lay_out(line: LogicalLine) -> list[str]:
     What fits stands on one line. What does not is broken inside of brackets, the last ones first.
     Their content goes on a line of its own; if it does not fit there, one argument a line, or one
     operand. Of brackets around a call or a list with nothing behind it, the inner ones are broken.
+    So is a list that is the first argument, if the others fit behind it.
     Outside of brackets only the author's own backslashes break a line that is too long.
     """
     width = INDENT_WIDTH * line.depth
@@ -73,6 +76,9 @@ class _Layout:
         """Write the content of brackets on lines of its own, and the closing bracket."""
         inner, closer = width + INDENT_WIDTH, self._closers[opener]
         parts = self._parts(opener + 1, closer, inner)
+        if len(parts) > 1 and (leading := self._leading_list(parts, closer, width)) is not None:
+            self._write_around(opener + 1, leading, closer, width)
+            return
         if not parts and (last := self._last_group(opener + 1, closer)) is not None:
             for index in range(opener + 1, last + 1):
                 self._write_token(index, width, spaced=index > opener + 1)
@@ -87,6 +93,14 @@ class _Layout:
                 self._write_token(last, inner, spaced=False)
         self._break(closer, width, comments_at=inner)
         self._current += self._pieces[closer].text
+
+    def _write_around(self, first: int, opener: int, closer: int, width: int) -> None:
+        """Write the content of brackets, with one pair in it broken, and the closing one."""
+        for index in range(first, opener + 1):
+            self._write_token(index, width, spaced=index > first)
+        self._explode(opener, width)
+        for index in range(self._closers[opener] + 1, closer + 1):
+            self._write_token(index, width, spaced=index < closer)
 
     def _break(self, index: int, width: int, *, comments_at: int | None = None) -> None:
         """End the line; comments before a token follow, then a line for it begins."""
@@ -182,6 +196,21 @@ class _Layout:
         if last is None or last < first or self._are_commented(closer, closer + 1):
             return None
         return last if self._is_short(first, last + 1, len(self._current)) else None
+
+    def _leading_list(
+        self, parts: Sequence[tuple[int, int]], closer: int, width: int
+    ) -> int | None:
+        """Return the opening bracket of a list that is the first argument, to break it instead.
+
+        `None`: it is none, or the others do not fit behind it.
+        """
+        first, last = parts[0]
+        opener = self._openers.get(last - 1)
+        if opener is None or self._pieces[opener].kind != _LIST:
+            return None
+        is_begun = self._is_short(first, opener + 1, len(self._current))
+        is_ended = self._is_short(last - 1, min(len(self._pieces), closer + 1 + BEHIND), width)
+        return opener if is_begun and is_ended else None
 
     def _operands(self, first: int, closer: int, column: int) -> list[tuple[int, int]]:
         """Return the operands of a comparison, else of a sum, if each fits on a line; else all."""

@@ -27,7 +27,7 @@ _WORDS = (
 )
 KINDS = ("event", "action", "maneuver", "act", "story", "group", "sequence")
 """Last words of names that only say what an element is."""
-LONGEST = 32
+LONGEST = 36
 """Characters of a name that does not make lines long."""
 _SYMBOL = re.compile(r"[a-z]{1,2}\d|[adv][xy]")
 _NEEDLESS = ("init", "initial", "position")

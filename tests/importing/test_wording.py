@@ -119,7 +119,7 @@ def test_long_names_of_parameters_lose_what_the_others_do_not_need() -> None:
         "cut_in_vehicle_relative_speed",
         "lane_change_max_lateral_velocity",
         "lead_vehicle_longitudinal_offset",
-        "longitudinal_offset",
+        "cut_in_vehicle_longitudinal_offset",
     ]
     alike = [f"cut_in_vehicle_{word}_longitudinal_offset" for word in ("init", "init_position")]
     assert shortened(alike, ["cut_in_vehicle"]) == alike  # both would have the same name

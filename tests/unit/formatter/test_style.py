@@ -163,6 +163,24 @@ def test_a_single_argument_is_broken_inside() -> None:
     ]
 
 
+def test_a_list_that_is_the_first_argument_is_broken_inside() -> None:
+    names = [f"point_{n}_of_the_path" for n in range(7)]
+    assert in_a_scenario(f"do actor.move(along: path([{', '.join(names)}], is_open: true))") == [
+        "do actor.move(along: path([",
+        *(f"    {name}," for name in names[:-1]),
+        f"    {names[-1]}",
+        "], is_open: true))",
+    ]
+    others = [f"argument_{n}_of_the_path: true" for n in range(4)]
+    assert in_a_scenario(f"do actor.move([{', '.join(names[:2])}], {', '.join(others)})") == [
+        "do actor.move(",
+        f"    [{', '.join(names[:2])}],",
+        *(f"    {each}," for each in others[:-1]),
+        f"    {others[-1]}",
+        ")",
+    ]
+
+
 def test_long_conditions_are_broken_before_operators() -> None:
     terms = [f"a_rather_long_name_{n} == {n}m" for n in range(4)]
     whole, short = " and ".join(terms), "some_name == 1m and another == 2m or other == 3m"
