@@ -96,10 +96,8 @@ class Courses:
         """Whether parameters give a part of a trajectory that does not follow them."""
         vertices = list(self._values.document.given(trajectory.element, xml.Vertex))
         for part in vertices or [trajectory.element]:
-            is_given = any(
-                text.startswith("$") for each in part.walk() for _, text in each.attributes
-            )
-            if is_given and not (
+            starts = [text[:1] for each in part.walk() for _, text in each.attributes]
+            if "$" in starts and not (
                 vertices and self._varied(trajectory.other(part.one(xml.Position).inner))
             ):
                 return True

@@ -87,6 +87,13 @@ class Ledger:
         """Note that an element is used, or one of its attributes."""
         self._used.add((id(element), name))
 
+    def use_all(self, element: Element) -> None:
+        """Note that all of an element is used."""
+        for each in element.walk():
+            here = id(each)
+            self._used.add((here, ""))
+            self._used.update([(here, name) for name, _ in each.attributes])
+
     def set_idle(self, element: Element, name: str, reason: str) -> None:
         """Note that an attribute changes nothing here, even if it was read."""
         self._idle_here[id(element), name] = reason
@@ -236,10 +243,7 @@ class Node:
 
     def use_all(self) -> None:
         """Note that all of it is used: it was read as a whole, or has been reported."""
-        for element in self.element.walk():
-            self._ledger.use(element)
-            for name, _ in element.attributes:
-                self._ledger.use(element, name)
+        self._ledger.use_all(self.element)
 
     def leave_out(self, reason: str) -> None:
         """Report that nothing says it."""

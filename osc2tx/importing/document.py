@@ -97,14 +97,19 @@ class Document:
 
     @cached_property
     def _by_tag(self) -> dict[str, list[Element]]:
-        found: dict[str, list[Element]] = {}
-        for node in self.root.walk():
-            found.setdefault(node.tag, []).append(node)
-        return found
+        return _by_tag(self.root)
+
+    @cached_property
+    def _resolved_by_tag(self) -> dict[str, list[Element]]:
+        return self._by_tag if self.resolved is self.root else _by_tag(self.resolved)
 
     def tagged(self, *tags: str) -> list[Element]:
         """Return all elements with one of some tags, those of each in the order of the document."""
         return [node for tag in tags for node in self._by_tag.get(tag, ())]
+
+    def resolved_tagged(self, tag: str) -> Sequence[Element]:
+        """Return all elements of `resolved` with a tag, in their order."""
+        return self._resolved_by_tag.get(tag, ())
 
     @property
     def folder(self) -> Path:
@@ -224,18 +229,17 @@ class Document:
 
     def resolution(self, node: Element) -> Element:
         """Return an element with parameters at nominal values, and entries of catalogs in it."""
+        if not node.children and not _is_given(node):
+            return node
         known = self._resolutions.get(id(node))
         if known is None or known[0] is not node:
             known = self._resolutions[id(node)] = node, self._resolve(node)
         return known[1]
 
     def _resolve(self, node: Element) -> Element:
-        if node.tag == "CatalogReference":
-            found = self.entry(node)
-            if found is not None:
-                return self.resolution(found[0])
-        given = any([text.startswith("$") for _, text in node.attributes])
-        if given:
+        if isinstance(node, xml.CatalogReference) and (found := self.entry(node)) is not None:
+            return self.resolution(found[0])
+        if _is_given(node):
             texts = {name: self.text_at(text) for name, text in node.attributes}
             node = node.with_attributes(texts)
         return with_each(node, self.resolution)
@@ -269,6 +273,21 @@ class Document:
             return find_map(relative.name, self._folders.maps)
         except ScenarioError:
             return None
+
+
+def _is_given(node: Element) -> bool:
+    """Whether an entry of a catalog or parameters give an element or its attributes."""
+    for _, text in node.attributes:  # a loop: documents have many of them
+        if text.startswith("$"):
+            return True
+    return isinstance(node, xml.CatalogReference)
+
+
+def _by_tag(root: Element) -> dict[str, list[Element]]:
+    found: dict[str, list[Element]] = {}
+    for node in root.walk():
+        found.setdefault(node.tag, []).append(node)
+    return found
 
 
 def _is_odd(named: str) -> bool:

@@ -34,7 +34,6 @@ from osc2tx.importing.surroundings import ENVIRONMENT, Surroundings
 from osc2tx.importing.values import Values
 from osc2tx.importing.whole import Whole, is_endless
 from osc2tx.xosc import Element, Unreadable, read
-from osc2tx.xosc import elements as xml
 from osc2tx.xosc.checking import problems, problems_of_entry, version_of
 from osc2tx.xosc.element import Unresolved
 from osc2tx.xosc.reader import Comment
@@ -174,7 +173,7 @@ class _Import:
         actors = self._cast.actors
         kinds = {said: actor.name for said, actor in actors.items()}
         places = Places(self._document, self._values, self._names, kinds)
-        leaves = any(True for _ in self._document.resolved.below(xml.LaneChangeAction))
+        leaves = bool(self._document.resolved_tagged("LaneChangeAction"))
         for said, actor in actors.items():
             body = places.bodies.get(said)
             actor.is_free = is_straight_ahead(places.map, body, beside=leaves)
@@ -251,6 +250,8 @@ class _Import:
 
     def _find_used(self, program: Program, places: Places, structure: Structure) -> None:
         """Note which parameters the scenario reads, itself or in what gives others."""
+        if not self._values.parameters:
+            return
         others = [*structure.declared, *places.points.declared]
         written = [*program.behavior, *(line for each in others for line in each.lines)]
         words = _words("\n".join(written))

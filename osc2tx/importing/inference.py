@@ -33,12 +33,11 @@ Votes = dict[str, set[Vote]]
 
 def uses_in(root: Element) -> list[tuple[Expression, Dimension]]:
     """Return the expressions of attributes that the schema gives a dimension."""
-    return [each for node in root.walk() for each in _uses_at(node)]
+    given = [node for node in root.walk() if "$" in [text[:1] for _, text in node.attributes]]
+    return [each for node in given for each in _uses_at(node)]
 
 
 def _uses_at(node: Element) -> Iterator[tuple[Expression, Dimension]]:
-    if not any(text.startswith("$") for _, text in node.attributes):
-        return
     parts = attributes_of(node.tag) if not node.tag.startswith("Parameter") else {}
     for name, text in node.attributes:
         dimension = dimension_of(node, name) if text.startswith("$") and name in parts else None

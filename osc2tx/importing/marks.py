@@ -12,7 +12,6 @@ from osc2tx.importing.document import Document
 from osc2tx.importing.names import Names, snake
 from osc2tx.importing.program import Declared
 from osc2tx.importing.report import ImportReport
-from osc2tx.xosc import elements as xml
 
 
 class Marks:
@@ -34,7 +33,7 @@ class Marks:
         }
         self._set: dict[str, set[str]] = {}
         self._modified: set[str] = set()
-        for action in document.resolved.below(xml.VariableAction):
+        for action in document.resolved_tagged("VariableAction"):
             for each in action.children:
                 said = action.get("variableRef") or ""
                 self._set.setdefault(said, set()).add(_plain(each.get("value") or ""))

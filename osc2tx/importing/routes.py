@@ -12,6 +12,7 @@ from osc2tx.importing.dimensions import LENGTH, TIME, Quantity, literal
 from osc2tx.importing.effects import BOTH, LATERAL, Effect, Reader
 from osc2tx.importing.points import Spot
 from osc2tx.importing.statements import Call, Statement, call
+from osc2tx.xosc import Element
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.player.bodies import Body, Pose
 from osc2tx.xosc.player.shapes import CHORD, Way
@@ -84,7 +85,7 @@ class Routes(Reader):
     def _trajectory(
         self, node: Node, said: str, actor: Actor, *, at_start: bool
     ) -> Iterator[Effect]:
-        timed = any(each.tag == "Timing" for each in node.element.walk())
+        timed = _timing(node) is not None
         way, own = self._places.trajectory(node), self._places.courses.offsets(node, said)
         is_from_actor = way is None
         way = self._places.trajectory(node, ORIGIN) if way is None else way
@@ -130,7 +131,7 @@ class Routes(Reader):
 
     def _since_its_start(self, node: Node, way: Way) -> Way:
         """Return the corners with times since the trajectory begins, not the run."""
-        timing = next((each for each in node.element.walk() if each.tag == "Timing"), None)
+        timing = _timing(node)
         if timing is None:
             return way
         scale = self._values.nominal(node.other(timing), "scale", 1.0)
@@ -215,6 +216,12 @@ class Routes(Reader):
         begin = {"start_offset": offset.text} if offset.is_open or offset.value else {}
         way = f"road.create_path{kind}({told})"
         return call(actor.name, "replay_path", absolute=way, **begin)
+
+
+def _timing(node: Node) -> Element | None:
+    """Return what relates the times of a trajectory to those of the run."""
+    reference = node.element.find(xml.TimeReference)
+    return None if reference is None else reference.find(xml.Timing)
 
 
 def _shape(stamps: Sequence[str]) -> str:

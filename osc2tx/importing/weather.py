@@ -11,7 +11,6 @@ from osc2tx.importing.dimensions import ANGLE, LENGTH, SPEED, short
 from osc2tx.importing.document import Document
 from osc2tx.importing.statements import Call, call
 from osc2tx.importing.values import Values
-from osc2tx.xosc import elements as xml
 from osc2tx_runtime.world.grip.friction import ADHESION
 
 OKTAS = ("zero", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine")
@@ -43,7 +42,7 @@ class Weather:
         self._values = values
         self._falling = {
             each.get("precipitationType") or ""
-            for each in document.resolved.below(xml.Precipitation)
+            for each in document.resolved_tagged("Precipitation")
         }
 
     def calls(self, environment: Node, actor: str = "") -> Iterator[Call]:

@@ -8,7 +8,9 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
+from functools import cache
+from typing import TypeAlias
 
 from osc2tx.options import XML_VERSIONS, XmlVersion
 from osc2tx.xosc.element import Element, Place
@@ -63,7 +65,7 @@ def problems(root: Element, version: XmlVersion) -> Iterator[Problem]:
     if part is None:
         yield Problem(f"<{root.tag}> below the document", root.place)
         return
-    yield from _of_element(root, part.type, version, set())
+    yield from _of_tree(root, part.type, version)
 
 
 def problems_of_entry(entry: Element, version: XmlVersion) -> Iterator[Problem]:
@@ -72,36 +74,34 @@ def problems_of_entry(entry: Element, version: XmlVersion) -> Iterator[Problem]:
     if part is None:
         yield Problem(f"<{entry.tag}> in a catalog", entry.place)
     else:
-        yield from _of_element(entry, part.type, version, set())
+        yield from _of_tree(entry, part.type, version)
 
 
-def _of_element(
-    node: Element, type_name: str, version: XmlVersion, right: set[tuple[object, ...]]
-) -> Iterator[Problem]:
-    """Yield what is wrong with an element and all below it.
-
-    Args:
-        node: The element.
-        type_name: Its type.
-        version: The version of the document.
-        right: Types with attributes or children in which nothing is wrong; gains those found.
-    """
-    tags = [child.tag for child in node.children]
-    names = [name for name, _ in node.attributes]
-    for key, check in (
-        ((type_name, "names", *names), _of_names),
-        ((type_name, node.attributes), _of_texts),
-        ((type_name, *tags), _of_children),
-    ):
-        if key not in right:
-            found = list(check(node, type_name, version))
+def _of_tree(root: Element, type_name: str, version: XmlVersion) -> Iterator[Problem]:
+    """Yield what is wrong with an element of a type and all below it, in their order."""
+    right: set[tuple[str, ...]] = set()  # types with the names and children that they may have
+    pending = [(root, type_name)]
+    while pending:
+        node, type_name = pending.pop()
+        tags = [child.tag for child in node.children]
+        names = [name for name, _ in node.attributes]
+        shape = (type_name, *names, "", *tags)
+        if shape not in right:
+            found = [
+                problem
+                for check in (_of_names, _of_children)
+                for problem in check(node, type_name, version)
+            ]
             yield from found
             if not found:
-                right.add(key)
-    known = element_type(type_name).children
-    for tag, child in zip(tags, node.children, strict=True):
-        if tag in known:
-            yield from _of_element(child, type_below(type_name, tag), version, right)
+                right.add(shape)
+        yield from _of_texts(node, type_name, version)
+        known = element_type(type_name).children
+        pending += [
+            (child, type_below(type_name, tag))
+            for tag, child in zip(reversed(tags), reversed(node.children), strict=True)
+            if tag in known
+        ]
 
 
 def _of_children(node: Element, type_name: str, version: XmlVersion) -> Iterator[Problem]:
@@ -151,13 +151,14 @@ def _of_names(node: Element, type_name: str, version: XmlVersion) -> Iterator[Pr
             yield Problem(f"<{node.tag}> without {name}", node.place)
 
 
-def _of_texts(node: Element, type_name: str, version: XmlVersion) -> Iterator[Problem]:
-    """Yield what is wrong with the texts of the attributes that there are in a version."""
-    known = element_type(type_name).attributes
+def _of_texts(node: Element, type_name: str, version: XmlVersion) -> list[Problem]:
+    """Return what is wrong with the texts of the attributes that there are in a version."""
+    found: list[Problem] = []
+    forms = _forms_of(type_name, version)
     for name, text in node.attributes:
-        part = known.get(name)
-        if part is not None and part.is_in(version):
-            yield from _of_text(node, name, text, part.type, version)
+        if (form := forms.get(name)) is not None and not form[0](text):
+            found += _of_text(node, name, text, form[1], version)
+    return found
 
 
 def _is_of_xml(name: str) -> bool:
@@ -175,6 +176,18 @@ _FORMS = {
         r"-?\d{4,}-\d\d-\d\dT\d\d:\d\d:\d\d(\.\d+)?(Z|[-+]\d\d:\d\d)?", re.ASCII
     ),
 }
+_NOTHING = re.compile(r"(?!)")
+_Form: TypeAlias = Callable[[str], object]
+
+
+@cache
+def _forms_of(type_name: str, version: XmlVersion) -> Mapping[str, tuple[_Form, str]]:
+    """Return which texts of attributes are right without a closer look, with their types."""
+    return {
+        name: (_FORMS.get(part.type, _NOTHING).fullmatch, part.type)
+        for name, part in element_type(type_name).attributes.items()
+        if part.is_in(version)
+    }
 
 
 def _of_text(
