@@ -104,6 +104,12 @@ class Metres:
         return rounded_up(self.most)
 
 
+class UpToTool(str):
+    """A bound in words of what each tool does by a law of its own: no played document measures it."""
+
+    __slots__ = ()
+
+
 UNMEASURED = "not measured"
 """The bound of what no played document has shown."""
 
@@ -289,7 +295,7 @@ class LossReport:
         for of_span in self._entries.values():
             for same in of_span.values():
                 for i, each in enumerate(same):
-                    if each.grade is Grade.APPROXIMATED and isinstance(each.bound, str):
+                    if each.grade is Grade.APPROXIMATED and type(each.bound) is str:
                         said = "" if each.is_open else each.bound
                         bound = "; ".join(filter(None, (said, text)))
                         same[i] = replace(each, bound=bound, is_open=False)

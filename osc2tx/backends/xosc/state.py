@@ -114,6 +114,10 @@ class ActorState:
         """Return the state in which what changes goes on as in another one."""
         return replace(self, rate=other.rate, jumped=other.jumped)
 
+    def goes_on_as(self, other: ActorState) -> bool:
+        """Whether it is as fast as in another state, and at the same place in its lane."""
+        return (self.speed, self.lane, self.offset) == (other.speed, other.lane, other.offset)
+
     def _others(self, domain: str) -> tuple[tuple[str, str], ...]:
         return tuple(pair for pair in self.unfinished if pair[0] != domain)
 

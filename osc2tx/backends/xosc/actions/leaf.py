@@ -22,6 +22,7 @@ from osc2tx.backends.xosc.facts.actors import (
     road_condition,
     steepest,
 )
+from osc2tx.backends.xosc.flattening.lengths import begin_of
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.state import LONGITUDINAL, NOTHING_KNOWN, ActorState, Demand, merged
 from osc2tx.xosc import elements as xml
@@ -196,9 +197,31 @@ class Leaf:
         return pace, planned(pace)
 
     def starts_behind(self, reference: CastMember) -> float | None:
-        """Return by how many metres an actor is behind another one if it begins with the run."""
+        """Return by how many metres an actor is behind another one, as at the start of the run.
+
+        `None`: that is not known, or may have changed since.
+        """
         apart = self.ctx.init_gaps.get((self.member.name, reference.name))
-        return apart if self.is_start else None
+        is_so = self.is_start or (apart is not None and self._keeps_apart_from(reference))
+        return apart if is_so else None
+
+    def _keeps_apart_from(self, reference: CastMember) -> bool:
+        """Whether both have been equally fast in their lanes from the start of the run on."""
+        ctx, begin = self.ctx, begin_of(self.ctx, self.node)
+        speed = ctx.at_start[self.member.name].known_speed
+        if begin is None or speed is None or ctx.scope is not ctx.root:
+            return False
+        nodes = {id(node): node for node in ir.invocations(ctx.scenario.body)}
+        for name in (self.member.name, reference.name):
+            start, moves = ctx.at_start[name], ctx.moves_of(name)
+            if moves is None or start.known_speed != speed:
+                return False
+            for number, move in moves.items():
+                since = begin_of(ctx, nodes[number]) if number in nodes else None
+                is_later = since is not None and since >= begin
+                if not is_later and not move.during.goes_on_as(start):
+                    return False
+        return True
 
     def state_of(self, other: CastMember, *, always: bool = False) -> ActorState:
         """Return what is known of another actor at the start of the action, or all the time.

@@ -14,9 +14,9 @@ from osc2tx.backends.xosc.conditions.flow import NEVER, Flow
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.facts.start_places import plan_starts
 from osc2tx.backends.xosc.flattening.builder import StoryboardBuilder
+from osc2tx.backends.xosc.flattening.lengths import length_of
 from osc2tx.backends.xosc.flattening.tree_queries import claims
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
-from osc2tx.backends.xosc.values.constants import Bounds
 from osc2tx_shared.classes import replace
 
 
@@ -40,30 +40,6 @@ def starts_of(ctx: Context, node: ir.Parallel) -> list[float | None]:
     planned = plan_starts(parts, overlap, starts, ends, node.span)
     by_member = dict(zip(map(id, timed), planned, strict=True))
     return [by_member.get(id(member), 0.0) for member in node.members]
-
-
-def length_of(ctx: Context, node: ir.Behavior) -> float | None:
-    """Return how long (s) a member takes; `None` if only the run shows it."""
-    match node:
-        case ir.Serial() | ir.Parallel() | ir.OneOf() | ir.Invoke() if node.until:
-            return None
-        case ir.Serial() | ir.Parallel() | ir.OneOf() | ir.Invoke() if node.duration is not None:
-            try:
-                value = ctx.values.of(node.duration)
-            except Inexpressible:
-                return None
-            return None if isinstance(value, Bounds) else ctx.values.number(node.duration)
-        case ir.Wait(trigger=ir.Trigger(event=None, condition=ir.Elapsed(duration=duration))):
-            return ctx.values.number(duration)
-        case ir.Serial(members=members):
-            lengths = [length_of(ctx, member) for member in members]
-            return None if None in lengths else sum(filter(None, lengths))
-        case ir.Parallel(members=members) if node.overlap in (None, "start"):
-            lengths = [length_of(ctx, member) for member in members if not ir.is_open(member)]
-            return None if None in lengths else max(filter(None, lengths), default=0.0)
-        case _ if ir.is_instant(node):
-            return 0.0
-    return None
 
 
 # --- conflicts ------------------------------------------------------------------------------------

@@ -47,7 +47,8 @@ def walk(leaf: Leaf, course: Profile, time: float | None) -> Change:
         raise Inexpressible(UNKNOWN)
     action = _straight_on(leaf, state.pose, course)
     passed = end if state.speed is None else state.speed.over(end)
-    during = after = replace(state, speed=passed, pose=None)
+    pose = state.pose if passed == known(0.0) else None  # who stands stays there
+    during = after = replace(state, speed=passed, pose=pose)
     if time is not None:
         pose = _ahead(state.pose, _covered(course, time))
         after = replace(state, speed=known(course.value(time)), pose=pose)

@@ -7,6 +7,7 @@ there is, which the XML cannot ask for: it has to be known from what stands befo
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from math import inf
 from typing import Literal, TypeAlias
@@ -17,9 +18,10 @@ from osc2tx.backends.xosc.actions.lateral.lanes import lateral
 from osc2tx.backends.xosc.actions.leaf import Change, Leaf, Performance
 from osc2tx.backends.xosc.actions.registry import action, apply_modifiers, to_goal
 from osc2tx.backends.xosc.actions.speed.courses import longitudinal, speed_action, speed_of
+from osc2tx.backends.xosc.actions.speed.speed_changes import STEP
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.facts.actors import TOP_SPEED
-from osc2tx.backends.xosc.report import GENERIC, Inexpressible, Metres, Remedy
+from osc2tx.backends.xosc.report import GENERIC, Inexpressible, Metres, Remedy, UpToTool
 from osc2tx.backends.xosc.state import LATERAL
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.literals import LateralDisplacement, LongitudinalDisplacement
@@ -97,9 +99,8 @@ def reach(leaf: Leaf, gap: Gap, *, keeps: bool, missing: float | None = None) ->
     if gap.is_lateral:
         return _reach_sideways(leaf, gap, keeps=keeps, missing=missing)
     size, freespace = _measured(leaf, gap)
-    if missing is None and not gap.is_time:
-        present = _present_gap(leaf, gap)
-        missing = None if present is None else abs(present - gap.size)
+    if missing is None and not (keeps and gap.is_time):
+        missing = _missing(leaf, gap)
     is_rigid = keeps and missing is not None and missing <= SURE
     tool, newer = leaf.ctx.profile, leaf.ctx.version >= "1.1"
     if is_rigid and not gap.is_time and "LongitudinalDistanceAction" in tool.unsupported:
@@ -167,21 +168,39 @@ def _reach_sideways(leaf: Leaf, gap: Gap, *, keeps: bool, missing: float | None)
 
 
 def _present_gap(leaf: Leaf, gap: Gap) -> float | None:
-    """Return how far (m) an actor starts from another one, if that is now, counted as a gap."""
+    """Return how far (m) an actor is from another one, if that is known, counted as a gap."""
     apart = leaf.starts_behind(gap.reference)
     if apart is None:
         return None
     return (apart if gap.side == "behind" else -apart) + gap.beyond_points(leaf.member)
 
 
+def _missing(leaf: Leaf, gap: Gap) -> float | None:
+    """Return how far (m) an actor is from a gap, if that is known."""
+    present = _present_gap(leaf, gap)
+    speed = leaf.state_of(gap.reference, always=True).known_speed if gap.is_time else 1.0
+    return None if present is None or speed is None else abs(present - gap.size * speed)
+
+
 def _note_control(leaf: Leaf, missing: float | None) -> None:
     """Report that a tool has a law of its own for a gap; what is missing (m) may be unknown."""
-    bound: Metres | str = "until it is there, at most by what was missing at its start"
+    bound: Metres | UpToTool = UpToTool(
+        "until it is there, at most by what was missing at its start"
+    )
     if missing is not None:
-        bound = Metres(missing, "until it is there")
+        bound = Metres(missing + _overshoot(leaf, missing), "until it is there")
     # The standard has no law for the control of gaps.
     how = "how it closes the gap, and when it is there, is up to the tool"
     leaf.arguments.approximate(how, bound, ARRIVING)
+
+
+def _overshoot(leaf: Leaf, missing: float) -> float:
+    """Return how far (m) a tool that moves in steps gets beyond, within the limits of the actor.
+
+    It has looked one step before, and is at most as fast as after half of what is missing (m).
+    """
+    rate = max(leaf.limits.acceleration, leaf.limits.deceleration)
+    return STEP * math.sqrt(rate * missing)
 
 
 def _measured(leaf: Leaf, gap: Gap) -> tuple[float, bool]:
@@ -223,7 +242,7 @@ def _keep_gap(leaf: Leaf) -> Performance:
     found = _reached_before(leaf, reference, direction)
     missing: float | None = 0.0
     if found is None and direction == "longitudinal":
-        found = _at_start(leaf, reference)
+        found = _as_at_start(leaf, reference)
         same = leaf.state.speed == leaf.ctx.at_start[reference.name].speed
         missing = 0.0 if same else None
     if found is None:
@@ -271,8 +290,8 @@ def _reached_before(leaf: Leaf, reference: CastMember, direction: str) -> Gap | 
     return replace(wanted, size=size)
 
 
-def _at_start(leaf: Leaf, reference: CastMember) -> Gap | None:
-    """Return the gap of the initial placement."""
+def _as_at_start(leaf: Leaf, reference: CastMember) -> Gap | None:
+    """Return the gap of the initial placement, if it is still the same."""
     apart = leaf.starts_behind(reference)
     if apart is None:
         return None

@@ -1,0 +1,51 @@
+"""How long members take, and when they begin, as far as that is known before the run."""
+
+from __future__ import annotations
+
+from osc2tx import ir
+from osc2tx.backends.xosc.context import Context
+from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx.backends.xosc.values.constants import Bounds
+
+
+def length_of(ctx: Context, node: ir.Behavior) -> float | None:
+    """Return how long (s) a member takes; `None` if only the run shows it."""
+    match node:
+        case ir.Serial() | ir.Parallel() | ir.OneOf() | ir.Invoke() if node.until:
+            return None
+        case ir.Serial() | ir.Parallel() | ir.OneOf() | ir.Invoke() if node.duration is not None:
+            try:
+                value = ctx.values.of(node.duration)
+            except Inexpressible:
+                return None
+            return None if isinstance(value, Bounds) else ctx.values.number(node.duration)
+        case ir.Wait(trigger=ir.Trigger(event=None, condition=ir.Elapsed(duration=duration))):
+            return ctx.values.number(duration)
+        case ir.Serial(members=members):
+            lengths = [length_of(ctx, member) for member in members]
+            return None if None in lengths else sum(filter(None, lengths))
+        case ir.Parallel(members=members) if node.overlap in (None, "start"):
+            lengths = [length_of(ctx, member) for member in members if not ir.is_open(member)]
+            return None if None in lengths else max(filter(None, lengths), default=0.0)
+        case _ if ir.is_instant(node):
+            return 0.0
+    return None
+
+
+def begin_of(ctx: Context, node: ir.Behavior) -> float | None:
+    """Return when (s) a member of the scenario begins; `None` if only the run shows it."""
+    begin = 0.0
+    for parent, before, _ in ir.around(ctx.scenario.body, node):
+        if isinstance(parent, ir.Parallel) and not begins_together(parent):
+            return None
+        for member in before:
+            length = length_of(ctx, member)
+            if length is None:
+                return None
+            begin += length
+    return begin
+
+
+def begins_together(node: ir.Parallel) -> bool:
+    """Whether the members of a `parallel` begin when it does, and end when they like."""
+    return node.overlap in (None, "start") and not (node.start_to_start or node.end_to_end)
