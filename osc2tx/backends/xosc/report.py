@@ -105,7 +105,7 @@ class Metres:
 
 
 class UpToTool(str):
-    """A bound in words of what each tool does by a law of its own: no played document measures it."""
+    """A bound in words where each tool has a law of its own, which no played document measures."""
 
     __slots__ = ()
 
