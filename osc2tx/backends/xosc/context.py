@@ -196,11 +196,7 @@ class Context:
     def require(
         self, what: str, since: XmlVersion, span: Span | None = None, instead: str = ""
     ) -> None:
-        """Refuse what the version does not have yet; `instead` is what any of them has.
-
-        Raises:
-            Inexpressible: It does not.
-        """
+        """Refuse what the version does not have yet; `instead` is what any of them has."""
         if self.version < since:
             newer = Remedy(version=since, instead=instead)
             raise Inexpressible(f"{what} is not in OpenSCENARIO XML {self.version}", span, newer)
@@ -222,11 +218,7 @@ class Context:
         return self.roads
 
     def require_support(self, feature: str, span: Span | None = None) -> None:
-        """Refuse what the tool does not carry out; `feature` as in `ToolProfile.unsupported`.
-
-        Raises:
-            Inexpressible: It does not.
-        """
+        """Refuse what the tool does not carry out; `feature` as in `ToolProfile.unsupported`."""
         instead = self.profile.unsupported.get(feature)
         if instead is not None:
             raise Inexpressible(

@@ -106,11 +106,7 @@ def key_of(path: str, parameter: ir.Parameter) -> str:
 
 
 def chosen_key(node: ir.InvokeScenario, values: Values) -> str:
-    """Return the key of the scenario that an invocation runs, by the values of its arguments.
-
-    Raises:
-        Inexpressible: They are not known before the run.
-    """
+    """Return the key of the scenario that an invocation runs, by the values of its arguments."""
     given = {argument.parameter: argument.value for argument in node.arguments}
     for special in node.specials:
         if all(values.of(given[v.parameter]) == values.of(v.value) for v in special.values):

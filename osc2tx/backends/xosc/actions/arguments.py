@@ -145,11 +145,7 @@ class Arguments:
         self._ctx.report.doubt(self.construct, self.span, reason, remedy)
 
     def finish(self) -> None:
-        """Refuse arguments that nobody has asked for: they would be dropped.
-
-        Raises:
-            Inexpressible: There are some.
-        """
+        """Refuse arguments that nobody has asked for: they would be dropped."""
         for name, argument in self._by_name.items():
             if name not in self._used:
                 raise Inexpressible(f"argument `{name}` has no counterpart", argument.span)

@@ -47,11 +47,7 @@ at_start("tow_trailer")
 
 
 def towing(ctx: Context) -> dict[str, str]:
-    """Return the entity that tows each trailer at the start, by trailer.
-
-    Raises:
-        Inexpressible: A trailer is no entity of the XML.
-    """
+    """Return the entity that tows each trailer at the start, by trailer."""
     found = {}
     for placement in ctx.scenario.placements:
         for call in placement.modifiers:

@@ -11,11 +11,7 @@ from osc2tx.xosc.literals import Rule
 
 
 def set_parameters(ctx: Context, emission: ir.Emit) -> tuple[xml.ActionPart, ...]:
-    """Return the actions that set what an emission hands over.
-
-    Raises:
-        Inexpressible: It is only known during the run.
-    """
+    """Return the actions that set what an emission hands over."""
     found = []
     for argument in emission.arguments:
         value = ctx.values.of(argument.value)

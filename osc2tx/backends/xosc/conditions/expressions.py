@@ -31,11 +31,7 @@ ALWAYS = Flow(((),))
 
 
 def condition_flow(ctx: Context, condition: ir.Condition) -> Flow:
-    """Return the tests of a level or an edge.
-
-    Raises:
-        Inexpressible: The XML has no such condition.
-    """
+    """Return the tests of a level or an edge."""
     match condition:
         case ir.Level(expression=expression):
             return level_flow(ctx, expression)

@@ -35,7 +35,7 @@ from osc2tx_runtime.world.geometry.profiles import (
 )
 from osc2tx_runtime.world.grip.friction import ADHESION, held_by, road_condition
 from osc2tx_runtime.world.lateral.execution import shift_profile
-from osc2tx_runtime.world.longitudinal.acceleration import acceleration_profile, integral
+from osc2tx_runtime.world.longitudinal.acceleration import acceleration_profile, integral, simpson
 from osc2tx_runtime.world.longitudinal.execution import speed_profile, within_limits
 from osc2tx_runtime.world.motion.moving_body import ALIGNED
 from osc2tx_runtime.world.motion.moving_body import CRUISE as SPEEDS_AT_START

@@ -70,11 +70,7 @@ TOLERANCE = 0.02
 
 @refusing()
 def sample_curve(line: Line) -> tuple[Waypoint, ...]:
-    """Return the corners of straight stretches that are as good as a way through points.
-
-    Raises:
-        Inexpressible: There is no such way.
-    """
+    """Return the corners of straight stretches that are as good as a way through points."""
     curve = curve_through(line.points, is_timed=line.is_timed, is_smooth=line.is_smooth)
     low, high = interval_between_offsets(curve, *line.offsets)
     begin, end = curve.begin, curve.end

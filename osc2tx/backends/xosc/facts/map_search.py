@@ -122,11 +122,7 @@ def points_of_route(
     elements: Sequence[LanePosition | Pose | MapSegment | Sequence[Waypoint]],
     connect_by: str,
 ) -> tuple[Waypoint, ...]:
-    """Return the way that a route leads along which is put together; waypoints are a path.
-
-    Raises:
-        Inexpressible: There is no such way.
-    """
+    """Return the way that a route leads along which is put together; waypoints are a path."""
     parts = [_element(each) for each in elements]
     poses = poses_of_route(roads.map, parts, cast("ConnectRoutePoints", connect_by))
     return tuple(Waypoint(0.0, pose.x, pose.y, pose.z, pose.yaw) for pose in poses)

@@ -86,11 +86,7 @@ class Roads:
         return step.position if abs(step.travelled - distance) < 1e-6 else None
 
     def place(self, road: str, lane: int, s: float, t: float) -> LanePosition:
-        """Return a place from its coordinates on a road given by its name.
-
-        Raises:
-            Inexpressible: The map has no such place.
-        """
+        """Return a place from its coordinates on a road given by its name."""
         with refusing(about=f"map {self.map.name}: "):
             place = LanePosition(road, lane, s, t * self.map.travel_direction(road, lane))
             self.map.pose(place)
@@ -133,11 +129,7 @@ class Roads:
         )
 
     def signal_position(self, signal: str) -> tuple[float, float]:
-        """Return where a traffic light stands (m).
-
-        Raises:
-            Inexpressible: There is no such light.
-        """
+        """Return where a traffic light stands (m)."""
         light = next((each for each in self.map.signals() if each.id == signal), None)
         if light is None:
             raise Inexpressible(f"map {self.map.name} has no traffic light {signal}")
@@ -155,11 +147,7 @@ class Roads:
 
     @refusing()
     def group(self, group: str) -> tuple[str, ...]:
-        """Return the traffic lights of a group.
-
-        Raises:
-            Inexpressible: There is no such group.
-        """
+        """Return the traffic lights of a group."""
         return self._signals.members(group)
 
     def group_of(self, signal: str) -> tuple[str, ...]:
@@ -181,11 +169,7 @@ class Roads:
 
     @refusing()
     def along(self, places: Sequence[LanePosition]) -> tuple[Waypoint, ...]:
-        """Return the way along lanes through places.
-
-        Raises:
-            Inexpressible: There is no such way.
-        """
+        """Return the way along lanes through places."""
         found = way_through(self.map, places)
         return tuple(Waypoint(0.0, pose.x, pose.y, pose.z, pose.yaw) for pose in found)
 
@@ -227,11 +211,7 @@ class MapFolders:
         self.places = cache(self._places)
 
     def _roads(self, map_file: str | None) -> Roads | None:
-        """Return a map, looked for as `osc2tx run` does; `None` if it is not found.
-
-        Raises:
-            Inexpressible: It is found and is no map.
-        """
+        """Return a map, looked for as `osc2tx run` does; `None` if it is not found."""
         wanted = Path(map_file or DEFAULT_MAP)
         if wanted.is_absolute() or ".." in wanted.parts:
             return None  # nothing outside of the folders is read

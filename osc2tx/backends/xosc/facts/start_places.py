@@ -72,21 +72,13 @@ def _state(pose: Pose, shape: Shape) -> ActorState:
 
 @refusing()
 def read_signal(text: str) -> tuple[str, float]:
-    """Return name and time (s) of an event from outside, as `--signal` says it.
-
-    Raises:
-        Inexpressible: It says none.
-    """
+    """Return name and time (s) of an event from outside, as `--signal` says it."""
     return parse_signal(text)
 
 
 @refusing()
 def read_spawn(text: str) -> tuple[str, LanePosition]:
-    """Return an actor and its start, as `--spawn` says it.
-
-    Raises:
-        Inexpressible: It says none.
-    """
+    """Return an actor and its start, as `--spawn` says it."""
     actor, (road, lane, s) = parse_spawn(text)
     return actor, LanePosition(road, lane, s)
 

@@ -8,9 +8,9 @@ deterministic. Rows that break a constraint are left out, and denser tables trie
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from functools import cached_property
-from itertools import count, islice, product
+from itertools import product
 from math import prod
 from typing import NamedTuple
 
@@ -21,6 +21,7 @@ from osc2tx.backends.xosc.scopes import Scope, open_scopes
 from osc2tx.backends.xosc.values.constants import Constant
 from osc2tx.backends.xosc.values.folding import Values
 from osc2tx.options import XmlVersion
+from osc2tx.support.latin_hypercube import hypercube, thinned
 from osc2tx.xosc.arithmetic import Range
 from osc2tx.xosc.expressions import LONGEST
 
@@ -153,14 +154,14 @@ class Domain:
             return [row for row in map(self.row, shares) if self.allows(row.point)]
         wanted, density, number = self.most_rows, 1, len(self.parameters)
         while True:
-            candidates = map(self.row, _hypercube(number, (wanted - 1) * density + 1))
+            candidates = map(self.row, hypercube(number, (wanted - 1) * density + 1))
             found = [row for row in candidates if not self.is_joint or self.allows(row.point)]
             if len(found) >= wanted:
                 break
             density *= 2
             if density > DENSEST or wanted * density * number > MOST_TRIED:
                 break
-        return sorted(_thinned(found, wanted), key=self._order)
+        return sorted(thinned(found, wanted), key=self._order)
 
     def row(self, shares: Sequence[float]) -> Row:
         """Return the row for places between the first and the last value of each parameter."""
@@ -194,42 +195,6 @@ def _is_kept(scope: Scope) -> bool:
         except Inexpressible:  # it is about something else, which is only known during the run
             continue
     return True
-
-
-def _hypercube(dimensions: int, number: int) -> list[tuple[float, ...]]:
-    """Return points of a Latin hypercube, from 0 to 1 in each dimension."""
-    columns = []
-    for base in islice(_primes(), dimensions):
-        keys = [(_radical_inverse(i, base), i) for i in range(number)]
-        order = {i: rank for rank, (_, i) in enumerate(sorted(keys))}
-        columns.append([order[i] / (number - 1) for i in range(number)])
-    return list(zip(*columns, strict=True))
-
-
-def _primes() -> Iterator[int]:
-    """Yield the prime numbers."""
-    found: list[int] = []
-    for number in count(2):
-        if all(number % prime for prime in found):
-            found.append(number)
-            yield number
-
-
-def _radical_inverse(number: int, base: int) -> float:
-    """Return the fraction whose digits are those of a number backwards."""
-    inverse, digit = 0.0, 1.0 / base
-    while number:
-        number, rest = divmod(number, base)
-        inverse += rest * digit
-        digit /= base
-    return inverse
-
-
-def _thinned(rows: list[Row], wanted: int) -> list[Row]:
-    """Return at most so many rows, evenly chosen."""
-    if len(rows) <= wanted:
-        return rows
-    return [rows[index * (len(rows) - 1) // (wanted - 1)] for index in range(wanted)]
 
 
 class Choosing:

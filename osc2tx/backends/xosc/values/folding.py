@@ -99,11 +99,7 @@ class Values(Objects):
         return {n.removeprefix(path): value for n, value in given if n.startswith(path)}
 
     def number(self, expression: ir.Expression) -> float:
-        """Return a number, in SI units, with the names in the expression as a note.
-
-        Raises:
-            Inexpressible: It is none, or is only known during the run.
-        """
+        """Return a number, in SI units, with the names in the expression as a note."""
         value = self.of(expression)
         number = self._plain_number(expression, value)
         if isinstance(value, (Bounds, Symbol)):
@@ -128,11 +124,7 @@ class Values(Objects):
         return float(value)
 
     def bounds(self, expression: ir.Expression) -> tuple[float, float]:
-        """Return the ends of a range, or twice the same number, in SI units.
-
-        Raises:
-            Inexpressible: They are only known during the run.
-        """
+        """Return the ends of a range, or twice the same number, in SI units."""
         value = self.of(expression)
         if isinstance(value, Bounds):
             return value.lower, value.upper
@@ -140,22 +132,14 @@ class Values(Objects):
         return number, number
 
     def actor(self, expression: ir.Expression) -> str:
-        """Return the name of an actor.
-
-        Raises:
-            Inexpressible: It is only known during the run.
-        """
+        """Return the name of an actor."""
         value = self.of(expression)
         if not isinstance(value, Named):
             raise Inexpressible(f"`{expression.span.text}` is no actor", expression.span)
         return value.name
 
     def of(self, expression: ir.Expression) -> Constant:
-        """Return the value of an expression.
-
-        Raises:
-            Inexpressible: It is only known during the run.
-        """
+        """Return the value of an expression."""
         match expression:
             case ir.Literal():
                 return expression.value
@@ -258,11 +242,7 @@ class Values(Objects):
         return elements[number]
 
     def result_of(self, method: ir.Method, given: Mapping[str, Constant]) -> Constant:
-        """Return what a method of the scenario returns for arguments by parameter.
-
-        Raises:
-            Inexpressible: It is only known during the run.
-        """
+        """Return what a method of the scenario returns for arguments by parameter."""
         if method.expression is None or self._depth == MOST_CALLS:
             text = f"what `{method.name}` returns is only known during the run"
             raise Inexpressible(text, method.span)

@@ -52,11 +52,7 @@ class Objects(ABC):
 
     @abstractmethod
     def of(self, expression: ir.Expression) -> Constant:
-        """Return the value of an expression.
-
-        Raises:
-            Inexpressible: It is only known during the run.
-        """
+        """Return the value of an expression."""
 
     def field(self, name: str, *path: str) -> Constant | None:
         """Return what a constraint fixes about an actor or struct; `None` if nothing does."""

@@ -79,7 +79,7 @@ class AccelerationRun:
         if isinstance(self._profile, Linear | Quintic):
             self._gained = integral(self._profile, self._time)
         else:
-            self._gained += _simpson(self._profile, before, self._time)
+            self._gained += simpson(self._profile, before, self._time)
         speed = self._start_speed + self._gained
         stops = self._start_speed > 0.0 > speed or self._start_speed < 0.0 < speed
         self._standing = self._standing or stops
@@ -91,7 +91,7 @@ class AccelerationRun:
         if isinstance(self._profile, Linear | Quintic):
             speed = self._start_speed + integral(self._profile, time)
         else:
-            speed = self._start_speed + self._gained + _simpson(self._profile, self._time, time)
+            speed = self._start_speed + self._gained + simpson(self._profile, self._time, time)
         stops = self._start_speed > 0.0 > speed or self._start_speed < 0.0 < speed
         return 0.0 if self._standing or stops else speed
 
@@ -112,7 +112,7 @@ class AccelerationRun:
         return 0.0 if self._standing else self._profile.value(self._time)
 
 
-def _simpson(profile: Profile, low: float, high: float) -> float:
+def simpson(profile: Profile, low: float, high: float) -> float:
     """Integral of a profile over a step; exact up to the third power of the time."""
     middle = profile.value(0.5 * (low + high))
     return (high - low) * (profile.value(low) + 4.0 * middle + profile.value(high)) / 6.0

@@ -147,11 +147,7 @@ def lane_change(
 def _number_among_oncoming(
     leaf: Leaf, here: LanePosition | None, target: LanePosition | None, offset: float
 ) -> int | None:
-    """Return the number of the target lane if it or the present one is of oncoming traffic.
-
-    Raises:
-        Inexpressible: It is, and there is an offset: its side is not the same for all tools.
-    """
+    """Return the number of the target lane if it or the present one is of oncoming traffic."""
     roads = leaf.ctx.roads
     if roads is None or here is None or target is None:
         return None
@@ -216,9 +212,6 @@ def _from_and_to(leaf: Leaf, lanes: int) -> tuple[LanePosition | None, LanePosit
     """Return the lane of the actor and the one beside it, as far as they are known.
 
     After some time it may be on a road that follows: there it changes the lane.
-
-    Raises:
-        Inexpressible: There is no such lane: tools would not notice.
     """
     roads, lane = leaf.ctx.roads, leaf.state.lane
     if roads is None or lane is None:

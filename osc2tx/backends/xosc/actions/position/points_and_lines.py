@@ -38,11 +38,7 @@ STRAIGHT = 0.01
 
 
 def xml_position(ctx: Context, point: Constant | None) -> XmlPosition:
-    """Return the place of a point.
-
-    Raises:
-        Inexpressible: It is not known before the run.
-    """
+    """Return the place of a point."""
     part = parts_of(ctx, point, "point")
     if isinstance(point, MethodResult):
         if point.method not in MADE:
@@ -136,11 +132,7 @@ def _element(
 
 
 def line_of(ctx: Context, value: Constant | None) -> Line:
-    """Return a path or trajectory.
-
-    Raises:
-        Inexpressible: It is not known before the run.
-    """
+    """Return a path or trajectory."""
     part = parts_of(ctx, value, "way")
     method = value.method if isinstance(value, MethodResult) else ""
     if method.startswith("resolve_relative_"):

@@ -7,13 +7,14 @@ a trajectory takes it across the road.
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 
 from osc2tx.backends.xosc.actions.leaf import Change, Leaf
 from osc2tx.backends.xosc.actions.position.paths import follow
 from osc2tx.backends.xosc.actions.speed.courses import speed_action
 from osc2tx.backends.xosc.actions.speed.speed_changes import jump_to
 from osc2tx.backends.xosc.entities.cast import PEDESTRIAN
-from osc2tx.backends.xosc.facts.actors import FASTEST, Profile, course_of_speed
+from osc2tx.backends.xosc.facts.actors import FASTEST, Profile, course_of_speed, simpson
 from osc2tx.backends.xosc.facts.curves import Waypoint, thinned
 from osc2tx.backends.xosc.facts.maps import Pose
 from osc2tx.backends.xosc.report import Inexpressible
@@ -108,15 +109,8 @@ def _ahead(pose: Pose, way: float) -> Pose:
 
 
 def _covered(course: Profile, time: float) -> float:
-    """Return the way (m) covered after a time: Simpson's rule, then the speed at the end."""
+    """Return the way (m) covered after a time: a sum over the change, then the speed at the end."""
     changing = min(time, course.duration)
-    step = changing / PIECES
-    way = (time - changing) * course.value(course.duration)
-    if changing <= 0.0:
-        return way
-    speed = course.value(0.0)
-    for index in range(PIECES):
-        left, right = index * step, (index + 1) * step
-        before, speed = speed, course.value(right)
-        way += (before + 4.0 * course.value(0.5 * (left + right)) + speed) / 6.0 * step
-    return way
+    ends = [changing * index / PIECES for index in range(PIECES + 1)]
+    way = sum(simpson(course, left, right) for left, right in pairwise(ends))
+    return way + (time - changing) * course.value(course.duration)

@@ -176,11 +176,7 @@ def parts_of(ctx: Context, value: Constant | None, what: str) -> Callable[..., C
 
 
 def number_of(value: Constant | None) -> float:
-    """Return a coordinate; 0 if it is left out.
-
-    Raises:
-        Inexpressible: It is not known before the run.
-    """
+    """Return a coordinate; 0 if it is left out."""
     number = 0.0 if value is None else as_number(value)
     if number is None:
         raise Inexpressible(UNKNOWN)

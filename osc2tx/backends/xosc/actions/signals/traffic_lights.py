@@ -111,11 +111,7 @@ def lamps_condition(expression: ir.Expression) -> ir.MethodCall | None:
 
 
 def shows(ctx: Context, call: ir.MethodCall) -> tuple[xml.ConditionPart, ...]:
-    """Return the conditions that all hold if a light, or all lights of a group, show something.
-
-    Raises:
-        Inexpressible: The light or the state is only known during the run.
-    """
+    """Return the conditions that all hold if a light, or all lights of a group, show something."""
     owner = ctx.values.of(call.base)
     given = next((ctx.values.of(a.value) for a in call.arguments if a.parameter == "bulbs"), None)
     is_group = call.owner == "traffic_light_group"

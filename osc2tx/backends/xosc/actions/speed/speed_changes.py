@@ -139,11 +139,7 @@ def _from_unknown(leaf: Leaf, target: float, pace: Pace) -> xml.PrivateAction:
 
 
 def _longest(leaf: Leaf, target: float, profile: str, rate: float) -> float:
-    """Return how long (s) a change takes at most, for tools that know no rates (m/s^2).
-
-    Raises:
-        Inexpressible: Nothing is known of the speed at its start.
-    """
+    """Return how long (s) a change takes at most, for tools that know no rates (m/s^2)."""
     speed, tool = leaf.state.speed, leaf.ctx.profile.name
     if speed is None:
         known_speed = replace(GENERIC, instead="with `speed(…, at: start)` it can be written")

@@ -8,7 +8,12 @@ from osc2tx.backends.xosc.actions.arguments import Arguments
 from osc2tx.backends.xosc.actions.leaf import UNKNOWN_SPEED, Change, Changes, Leaf
 from osc2tx.backends.xosc.actions.registry import modifier
 from osc2tx.backends.xosc.actions.speed.acceleration import speed_by, user_shape
-from osc2tx.backends.xosc.actions.speed.courses import follow_course, speed_action, speed_of
+from osc2tx.backends.xosc.actions.speed.courses import (
+    SAME,
+    follow_course,
+    speed_action,
+    speed_of,
+)
 from osc2tx.backends.xosc.actions.speed.speed_changes import change_speed, jump_to, may_jump
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.facts.actors import COMFORT, FASTEST, Course, Linear, Pace
@@ -16,9 +21,6 @@ from osc2tx.backends.xosc.report import GENERIC, Inexpressible, Remedy
 from osc2tx.backends.xosc.state import LONGITUDINAL, Demand, known
 from osc2tx.backends.xosc.values.constants import Bounds
 from osc2tx.xosc.literals import DynamicsDimension, DynamicsShape
-
-SAME = 1e-6
-"""m/s between speeds that count as one."""
 
 SHAPED = ("shape", "rate_profile", "rate_peak")
 """Arguments that give a change a course."""
@@ -239,11 +241,7 @@ def _check_end_is_free(leaf: Leaf, call: Arguments) -> None:
 
 
 def time_to_cover(leaf: Leaf) -> float | None:
-    """Return after how many seconds an invocation has covered its distance; `None` without one.
-
-    Raises:
-        Inexpressible: Its speed is not known before the run.
-    """
+    """Return after how many seconds an invocation has covered its distance; `None` without one."""
     if leaf.distance is None:
         return None
     if leaf.course is not None:
