@@ -114,8 +114,11 @@ _OPPOSITE_VALUES = {"0": "1", "1": "0", "false": "true", "true": "false"}
 E = TypeVar("E", bound=Element)
 
 
-def _opposite(test: Test) -> Test:
-    """Return the test that holds while another one does not."""
+def _opposite(test: Test) -> Test | None:
+    """Return the test that holds while another one does not; `None` if none is sure to."""
+    for node in test.condition.walk():
+        if node.get("rule") == "equalTo" and node.get("value") not in _OPPOSITE_VALUES:
+            return None
     return replace(test, edge="none", condition=_turned(test.condition))
 
 
@@ -165,6 +168,10 @@ class _Watch:
         if test.edge == "none":
             return (test,)
         level, opposite = replace(test, edge="none"), _opposite(test)
+        if opposite is None:
+            reason = f"{self._ctx.profile.name} cannot tell when a value begins to be that one"
+            self._ctx.report.cannot("condition", event.place, reason, GENERIC)
+            return (level,)
         if test.edge == "falling":
             level, opposite = opposite, level
         since = tuple(self._undelayed(each, event) for each in group if each.latched)

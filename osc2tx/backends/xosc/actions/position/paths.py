@@ -84,7 +84,7 @@ def _along_segment(leaf: Leaf, segment: MapSegment, call: Arguments) -> Changes:
 
 
 def along_line(leaf: Leaf, line: Line, arguments: Arguments) -> Changes:
-    """Return the changes that a path or a trajectory makes, without parts that arguments leave out."""
+    """Return the changes of a path or a trajectory, without the parts that arguments leave out."""
     line, is_exact = replace(line, offsets=arguments.offsets()), may_jump(leaf)
     if leaf.enters and line.frame is None:
         reason = "a run plans how the actor gets to the path by then"
