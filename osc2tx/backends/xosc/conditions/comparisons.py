@@ -19,7 +19,6 @@ class Comparison(NamedTuple):
 
     Attributes:
         actor: Whose measure.
-        owner: Type that declares the field or method.
         name: The field or method.
         arguments: By parameter.
         rule: Literal of `Rule`.
@@ -29,7 +28,6 @@ class Comparison(NamedTuple):
     """
 
     actor: str
-    owner: str
     name: str
     arguments: Mapping[str, Constant]
     rule: Rule

@@ -207,7 +207,6 @@ def _measured(ctx: Context, measure: ir.Expression, rule: Rule, value: float, ed
         raise Inexpressible(f"there is no condition on `{owner}.{name}`", measure.span, waiting)
     comparison = Comparison(
         actor=ctx.cast[actor.name].name,
-        owner=owner,
         name=name,
         arguments=arguments,
         rule=rule,

@@ -8,6 +8,7 @@ run, that choice is an open parameter too.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from itertools import chain
 from typing import TypeAlias
 
 from osc2tx import ir
@@ -195,11 +196,6 @@ def _with_known_bounds(
     return tuple(kept)
 
 
-def _elements(value: Constant) -> tuple[Constant, ...]:
-    """Return the values that an element of a set stands for: a list for its own elements."""
-    return value if isinstance(value, tuple) else (value,)
-
-
 def _open(declaration: ir.Parameter, scope: Scope, names: Names) -> OpenParameter | None:
     """Return a parameter if it is open."""
     if declaration.value is not None:
@@ -215,7 +211,8 @@ def _open(declaration: ir.Parameter, scope: Scope, names: Names) -> OpenParamete
                 range_ = domain
             case ir.Choices(elements=elements):
                 values = (scope.values.of(each) for each in elements)
-                choices = tuple(v for each in values for v in _elements(each))
+                lists = (v if isinstance(v, tuple) else (v,) for v in values)  # of elements
+                choices = tuple(chain.from_iterable(lists))
                 if not is_whole and all(type(each) in (int, float) for each in choices):
                     choices = tuple(float(n) for n in choices if isinstance(n, (int, float)))
                 for choice in choices:

@@ -213,14 +213,6 @@ def _measured(leaf: Leaf, gap: Gap) -> tuple[float, bool]:
     return round(gap.size - beyond, 6), False
 
 
-def _changes_gap(node: ir.Invoke) -> bool:
-    return node.action.startswith(("change_space_", "change_time_"))
-
-
-def _side(apart: float) -> str:
-    return "behind" if apart > 0.0 else "ahead"
-
-
 @action("change_space_gap", "change_time_gap", "change_space_headway", "change_time_headway")
 def _change_gap(leaf: Leaf) -> Performance:
     gap = _asked_for(leaf, leaf.node, leaf.arguments)
@@ -273,7 +265,9 @@ def _reached_before(leaf: Leaf, reference: CastMember, direction: str) -> Gap | 
     """Return the gap that the invocation before has made, counted as this one counts."""
     is_time, between = _counted(leaf.node)
     before = ir.predecessor(leaf.ctx.scenario.body, leaf.node)
-    if before is None or not _changes_gap(before) or before.until or before.actor is None:
+    if before is None or before.until or before.actor is None:
+        return None
+    if not before.action.startswith(("change_space_", "change_time_")):
         return None
     if leaf.ctx.values.actor(before.actor) != leaf.member.actor.name:
         return None
@@ -295,7 +289,8 @@ def _as_at_start(leaf: Leaf, reference: CastMember) -> Gap | None:
     apart = leaf.starts_behind(reference)
     if apart is None:
         return None
-    gap = Gap(reference, _side(apart), 0.0, *_counted(leaf.node))
+    side = "behind" if apart > 0.0 else "ahead"
+    gap = Gap(reference, side, 0.0, *_counted(leaf.node))
     size = _present_gap(leaf, gap)
     assert size is not None
     if gap.is_time:
