@@ -15,7 +15,13 @@ from math import prod
 from typing import TypeAlias
 
 from osc2tx import ir
-from osc2tx.lowering.behavior.durations import is_free, is_instant, is_open_ended, with_elastic
+from osc2tx.lowering.behavior.durations import (
+    is_elastic,
+    is_free,
+    is_instant,
+    is_open_ended,
+    with_elastic,
+)
 from osc2tx.lowering.behavior.invoked_times import MOST_CHOICES, InvokedTimes, Lasting, ScenarioOf
 from osc2tx.lowering.behavior.overlap_equations import OverlapTimes
 from osc2tx.lowering.behavior.time_equations import TimeEquations
@@ -78,6 +84,10 @@ def _alternatives(lengths: Sequence[_Length]) -> _Length:
             return None
         found += (length.terms,) if isinstance(length, _Known) else length.options
     return _choice(found)
+
+
+ENDING_WITH_OTHERS = ("equal", "end", "final", "full", "inside")
+"""Overlaps that require of the end of a member where those of others are."""
 
 
 class TimeSystem:
@@ -319,12 +329,36 @@ class TimeSystem:
             if not isinstance(length, _Known) or length.terms
         ]
         overlap = node.overlap or "start"
+        node = self._with_lengths_of_goals(node, lengths, lasting)
         is_plain = node.start_to_start is None and node.end_to_end is None
         if not lasting or not is_plain or overlap not in ("equal", "start"):
             return node, self._offset(node, [lengths[index] for index in lasting])
         if overlap == "equal":
             return self._equal(node, lengths, lasting)
         return self._started_together(node, lengths, lasting)
+
+    def _with_lengths_of_goals(
+        self, node: ir.Parallel, lengths: list[_Length], lasting: Sequence[int]
+    ) -> ir.Parallel:
+        """Return a parallel whose elastic members are as long as its overlap with others requires.
+
+        Their lengths are known from now on.
+        """
+        if node.start_to_start or node.end_to_end or node.overlap not in ENDING_WITH_OTHERS:
+            return node
+        known = [(i, length) for i in lasting if isinstance(length := lengths[i], _Known)]
+        elastic = [i for i in lasting if lengths[i] in (None, FREE) and is_elastic(node.members[i])]
+        if node.overlap == "inside":
+            elastic = [i for i in elastic if i == lasting[0]]
+        if not elastic or len(known) + len(elastic) < len(lasting):
+            return node
+        primary = [length for i, length in known if i == lasting[0]]
+        whole = self._longest(primary or [length for _, length in known]) if known else None
+        if whole is None:
+            return node
+        for index in elastic:
+            lengths[index] = whole
+        return with_elastic(node, [node.members[i] for i in elastic], sum_of(whole.terms))
 
     def _offset(self, node: ir.Parallel, lengths: list[_Length]) -> _Length:
         """Relate members to the offsets between them, and to the duration around them."""

@@ -6,11 +6,14 @@ end` has to hold then. Members with a goal have at most 8 s.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from osc2tx_runtime.domain.modifiers import Modifier
 from osc2tx_runtime.language.actions.base_action import BaseAction
-from osc2tx_runtime.language.tree import Parallel, Serial
+from osc2tx_runtime.language.tree import Parallel, Serial, Until
 from osc2tx_runtime.language.tree.base import Node
+from osc2tx_shared.rules.combinations import HELD_GOALS
 
 if TYPE_CHECKING:
     from osc2tx_runtime.language.tree import Behaviour
@@ -39,6 +42,28 @@ def phase_of(action: BaseAction, *, strict: bool) -> DurationLimits | None:
             return limits if limits.fixed is not None else None
         node = parent
     return None
+
+
+def lasts_until_event(action: BaseAction, goals: Sequence[Modifier], *, strict: bool) -> bool:
+    """Whether an action holds its goal until an `until` ends it, not before (DSL 7.6.2.5.4).
+
+    The `until` is its own, or that of a serial of which it is the last member. A place or a distance is passed, so it ends the action.
+
+    Args:
+        action: The action.
+        goals: Its modifiers that state a goal.
+        strict: Whether the `until` is met exactly, not at the latest.
+    """
+    is_open = action.registered.ends == "open" and action.duration is None
+    is_held = bool(goals) and all(each.name in HELD_GOALS for each in goals)
+    if not (strict and is_open and is_held):
+        return False
+    node: Behaviour = action
+    while isinstance(parent := node.parent, Serial):
+        if parent.limits is not None or parent.children[-1] is not node:
+            return False
+        node = parent
+    return isinstance(node.parent, Until)
 
 
 def limit_of(action: BaseAction) -> DurationLimits | None:

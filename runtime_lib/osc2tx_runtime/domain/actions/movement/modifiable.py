@@ -28,7 +28,7 @@ from osc2tx_runtime.domain.modifiers import (
 from osc2tx_runtime.domain.modifiers.base import now
 from osc2tx_runtime.domain.modifiers.groups import PATH_SHAPERS
 from osc2tx_runtime.domain.placing.pose_resolution import one_of_kind
-from osc2tx_runtime.domain.planning.enclosing_phase import phase_of
+from osc2tx_runtime.domain.planning.enclosing_phase import lasts_until_event, phase_of
 from osc2tx_runtime.domain.planning.lateral.lateral_planning import follow_reference, side_command
 from osc2tx_runtime.domain.planning.longitudinal.covering import time_to_goal
 from osc2tx_runtime.domain.planning.longitudinal.goals import distance_to_cover, watched_place
@@ -72,6 +72,7 @@ class ModifiableAction(ModifiedMotion):
         self._watched: PlaceWatch | None = None
         self._toward: object = None  # the lane of a reference, or its heading
         self._waits = False  # for a change of its actor, or for the end of its duration
+        self._is_held = False  # its goal, once reached, until an event ends it
 
     def become(self, method: Method) -> None:
         """Takes the method; a goal bounds the action."""
@@ -149,7 +150,9 @@ class ModifiableAction(ModifiedMotion):
         """Claims the slots of the modifiers, and checks what is known at this time."""
         if self.has_goal and not self.follows_path:
             self._phase = phase_of(self, strict=not kwargs["context"].first_come)
-        if self._phase is not None:
+        goals = [each for each in self.modifiers if self._bounds(each)]
+        self._is_held = lasts_until_event(self, goals, strict=not kwargs["context"].first_come)
+        if self._phase is not None or self._is_held:
             self.open_ended = True
         check_modifiers(self)
         own = self.own
@@ -299,7 +302,7 @@ class ModifiableAction(ModifiedMotion):
         )
         watches = self._to_cover is not None or self._watched is not None
         self._reached = reached and (not watches or self._reached) and lies_so(self)
-        return self._reached and self._phase is None
+        return self._reached and self._phase is None and not self._is_held
 
     def _ends_with(self, slot: str) -> bool:
         """Whether the command in a slot belongs to the goal."""
