@@ -47,8 +47,8 @@ def phase_of(action: BaseAction, *, strict: bool) -> DurationLimits | None:
 def lasts_until_event(action: BaseAction, goals: Sequence[Modifier], *, strict: bool) -> bool:
     """Whether an action holds its goal until an `until` ends it, not before (DSL 7.6.2.5.4).
 
-    The `until` is its own, or that of a serial of which it is the last member. A place or a distance
-    is passed, so it ends the action.
+    The `until` is its own, or that of a serial of which it is the last member. A place or a
+    distance is passed, so it ends the action.
 
     Args:
         action: The action.
