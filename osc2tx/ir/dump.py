@@ -72,7 +72,8 @@ def _method(method: Method) -> str:
 
 def _user_action(action: UserAction) -> str:
     parameters = ", ".join(f"{p.name}: {p.type}" for p in action.parameters)
-    return f"declared action {action.qualified_name}({parameters}) @{action.span.line}"
+    base = "" if action.base is None else f" inherits {action.base}"
+    return f"declared action {action.qualified_name}({parameters}){base} @{action.span.line}"
 
 
 def _user_modifier(modifier: UserModifier) -> Iterator[str]:

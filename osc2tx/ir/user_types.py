@@ -119,6 +119,7 @@ class UserAction:
         owner: The actor type that it belongs to, if any.
         parameters: Its own and those of its bases.
         takes_modifiers: Whether modifiers of movement may be applied to it.
+        base: The action of the library that it inherits, and is where no package carries it out.
     """
 
     name: str
@@ -126,6 +127,7 @@ class UserAction:
     span: Span
     parameters: tuple[ActionParameter, ...]
     takes_modifiers: bool
+    base: str | None = None
     comments: tuple[str, ...] = ()
 
     @property

@@ -67,6 +67,8 @@ def _write(
     key = action_key(action.qualified_name)
     uses.standard("typing", "Protocol")
     uses.name("Behaviour")
+    if action.base is not None:
+        uses.standard("typing", "ClassVar")
     about = [f"Action `{action.qualified_name}`.", *action.comments]
     if action.comments:
         about.insert(1, "")
@@ -77,6 +79,7 @@ def _write(
         binder=uses.name("global_action" if action.owner is None else "user_action"),
         docstring=tuple(PyDocLine.of(line) for line in about),
         parameters=tuple(_parameters(action, types, uses, write)),
+        base=None if action.base is None else literal(identifier(action.base)),
     )
 
 

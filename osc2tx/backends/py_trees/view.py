@@ -211,6 +211,7 @@ class UserActionView:
         docstring: Lines of its docstring.
         parameters: As they are written, the actor first.
         copied: Why it is a copy, if it is one.
+        base: The inherited action of the library, if there is one.
     """
 
     function: PyName
@@ -220,6 +221,7 @@ class UserActionView:
     docstring: tuple[PyDocLine, ...]
     parameters: tuple[ParameterView, ...]
     copied: PyComment | None = None
+    base: PyExpr | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,6 +11,7 @@ from collections.abc import Iterable, Iterator
 from osc2tx import ir
 from osc2tx.analysis.constraints.parameter_lookup import Place
 from osc2tx.analysis.tree_walk import nodes_below
+from osc2tx.catalogue import catalogue
 from osc2tx.lowering.context import LoweringContext, statement_comments
 from osc2tx.lowering.value_types import lower_type
 from osc2tx.lowering.values.expressions import lower_expression
@@ -39,6 +40,7 @@ def _lower_action(ctx: LoweringContext, action: sym.ActionSymbol) -> ir.UserActi
     bases = [action]
     while (base := bases[-1].base) is not None:
         bases.append(base)
+    known = catalogue().actions
     return ir.UserAction(
         name=action.name,
         owner=None if action.actor is None else action.actor.name,
@@ -56,6 +58,7 @@ def _lower_action(ctx: LoweringContext, action: sym.ActionSymbol) -> ir.UserActi
             if p.node is not None
         ),
         takes_modifiers=any(base.name == MOVEMENT for base in bases),
+        base=next((base.name for base in bases if base.qualified_name in known), None),
     )
 
 

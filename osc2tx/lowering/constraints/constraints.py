@@ -17,7 +17,7 @@ from osc2tx.analysis.constraints.constraint import Constraint
 from osc2tx.analysis.constraints.domains import TRUE, Choice, Domain, Interval, join
 from osc2tx.analysis.constraints.operation_list import SIZE, Key, domain_of_type
 from osc2tx.analysis.constraints.solver import values_on
-from osc2tx.lowering.behavior.composed_behaviors import Composed
+from osc2tx.lowering.behavior.composed_behaviors import Composed, is_composed
 from osc2tx.lowering.constraints.cases import (
     alternatives,
     cases_of,
@@ -156,15 +156,20 @@ class ConstraintLowering:
         """
         binding = self.ctx.model.bindings.get(node)
         is_of_library = binding is not None and binding.callee.origin != "user"
+        is_atomic = binding is not None and not is_composed(binding.callee)
         for key, mentioned in self.found.by_key.items():
             parameter = key[-1]
             if key[0] is not node or len(key) != 2 or not isinstance(parameter, sym.FieldSymbol):
                 continue
             if any(c.subject == key and c.origin == "argument" for c in mentioned):
                 continue
-            states_itself = not is_of_library and any(c.subject == key for c in mentioned)
-            if (states_itself or (parameter is DURATION and not is_of_library)) and all(
-                c.place.prefix[:1] == (node,) for c in mentioned
+            own = [c.origin for c in mentioned if c.subject == key]
+            is_default = bool(own) and {*own} == {"default value"}  # the declaration decides
+            states_itself = is_default if is_atomic else bool(own)
+            if (
+                not is_of_library
+                and (states_itself or (parameter is DURATION and not is_atomic))
+                and all(c.place.prefix[:1] == (node,) for c in mentioned)
             ):
                 continue
             setting = self.setting(key, parameter.type)

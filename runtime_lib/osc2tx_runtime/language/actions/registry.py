@@ -198,6 +198,19 @@ class MethodRegistry:
 
         return create
 
+    def has(self, actor: BaseActor, name: str) -> bool:
+        """Whether an action of an actor is registered, or a package registers it."""
+        kinds = type(actor).kinds
+        if self.find(kinds, name) is None:
+            self.extend()
+        return self.find(kinds, name) is not None
+
+    def known_to(self, actor: BaseActor, name: str, given: Mapping[str, Any]) -> dict[str, Any]:
+        """Return the arguments that an action of an actor takes."""
+        found = self.find(type(actor).kinds, name)
+        known = () if found is None else (*_signature(found.factory).parameters, *_OPTIONS)
+        return {key: value for key, value in given.items() if key in known}
+
     def _missing(self, kinds: tuple[str | None, ...], name: str) -> NoActionError:
         near = self.near(kinds, name)
         hint = f"; did you mean {' or '.join(near)}?" if near else ""
@@ -293,12 +306,18 @@ def user_action(name: str, declared: type | None = None) -> Any:
 
     Args:
         name: Its name in the registry.
-        declared: Its declared type: the defaults are those of its `__call__`.
+        declared: Its declared type: the defaults are those of its `__call__`. Its `base`, if it has
+            one, names the action that carries it out where no package registers it.
     """
     defaults = _defaults(declared)
+    base: str | None = getattr(declared, "base", None)
 
     def call(actor: BaseActor, *args: Any, **kwargs: Any) -> BaseAction:
-        node = methods.bind(actor, name)(*args, **{**defaults, **kwargs})
+        given = {**defaults, **kwargs}
+        if base is None or methods.has(actor, name):
+            node = methods.bind(actor, name)(*args, **given)
+        else:
+            node = methods.bind(actor, base)(*args, **methods.known_to(actor, base, given))
         written = re.sub(r"^\([^,)]*(, )?", "(", call_arguments())  # the actor precedes it
         node.name = node.label or called(actor.id, name, written)
         return node
