@@ -77,6 +77,17 @@ NOT_BUILT = (
         + "speed(p.lead.speed)\n",
     ),
     NotBuilt(
+        "`distance`, `change_lane`, `change_speed` or a position at the end as a member of a scenario,"
+        " or of a composition, in which the actor carries out several actions",
+        "OSC508",
+        "it is about the whole: each of the actions would cover the distance or change the lane."
+        " In the `with` of one action it is built",
+        SCENARIO
+        + "    ego.distance(40m)"
+        + DRIVE
+        + "speed(5mps)\n        ego.drive(duration: 1s)\n",
+    ),
+    NotBuilt(
         "`lateral` of persons and other actors that follow no lane",
         "OSC508",
         "they move along paths, routes and crossings, and have no lane in which an offset is kept;"

@@ -60,6 +60,7 @@ class StandingModifiers:
         self._around: list[ast.Composition] = []
         self._lowered: dict[tuple[ast.Node, Key], tuple[Applied, ...]] = {}
         self._used: set[ast.Node] = set()
+        self._whole: set[tuple[ast.Node, str, str]] = set()
         self.attached = Attached(is_whole=True)
         self._attached: dict[ast.Composition, Attached] = {}
 
@@ -88,8 +89,24 @@ class StandingModifiers:
             actor: The actor.
             action: The invoked action; with `None` any.
         """
-        for _, call in self._calls(actor, action):
+        for standing, call in self._calls(actor, action):
+            if _is_of_the_whole(call):
+                self._note_whole(standing.node, call, actor)
             yield call
+
+    def _note_whole(
+        self, node: ast.ModifierApplication, call: ir.ModifierCall, actor: ir.Expression | None
+    ) -> None:
+        """Refuse what one action alone has to meet, if several in a row would meet it each."""
+        whose = (node, call.name, actor.name if isinstance(actor, ir.FieldRef) else "")
+        if whose in self._whole:
+            self._ctx.unsupported(
+                "OSC508",
+                node.span,
+                f"`{call.name}` is about all that several actions do together",
+                help="apply it in the `with` of one of them, or leave one action",
+            )
+        self._whole.add(whose)
 
     def _calls(
         self, actor: ir.Expression | None, action: sym.BehaviorSymbol | None
@@ -215,6 +232,16 @@ def _member(node: ast.ModifierApplication) -> Standing:
 def stands(call: ir.ModifierCall) -> bool:
     """Whether a modifier holds for longer than the start, and is one of actions."""
     return not (call.at == "start" and can_place(call)) and not owner_of(call)
+
+
+def _is_of_the_whole(call: ir.ModifierCall) -> bool:
+    """Whether a modifier compares the end of what it modifies with its start, or is a place then.
+
+    Each of several actions would meet it: twice the distance, twice the number of lanes.
+    """
+    return call.name in ("distance", "change_lane", "change_speed") or (
+        call.name == "position" and call.at == "end"
+    )
 
 
 def _fits(applied: Applied, action: sym.BehaviorSymbol | None) -> bool:
