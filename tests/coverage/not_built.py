@@ -77,8 +77,8 @@ NOT_BUILT = (
         + "speed(p.lead.speed)\n",
     ),
     NotBuilt(
-        "`distance`, `change_lane`, `change_speed` or a position at the end as a member of a scenario,"
-        " or of a composition, in which the actor carries out several actions",
+        "`distance`, `change_lane`, `change_speed` or a position at the end as a member of a"
+        " scenario, or of a composition, in which the actor carries out several actions",
         "OSC508",
         "it is about the whole: each of the actions would cover the distance or change the lane."
         " In the `with` of one action it is built",
