@@ -1,7 +1,7 @@
 """The end of a scenario as a part of its composition.
 
 What ends the scenario is waited for beside what goes on by itself: the last member of a `parallel`
-that ends by itself ends all. Where something else may last longer, events end it.
+that ends by itself ends all. What may not have happened by then is ended by an `until`.
 """
 
 from __future__ import annotations
@@ -43,6 +43,29 @@ def is_over(statement: Statement, at: float | None) -> bool:
     """Whether a statement is over before a time (s) after its start; `None`: not known."""
     length = seconds([statement])
     return length is not None and at is not None and length < at
+
+
+def is_open_by(statement: Statement, up_to: float | None) -> bool:
+    """Whether an open-ended statement surely is so far that what is around it may end it.
+
+    Args:
+        statement: The statement.
+        up_to: When that is (s); `None`: not known.
+    """
+    found = _opening(statement)
+    return found == 0.0 or (found is not None and up_to is not None and found < up_to)
+
+
+def _opening(statement: Statement) -> float | None:
+    """Return the seconds before the open-ended last members of a statement; `None`: unknown."""
+    if statement.does == "serial":
+        *before, last = statement.members
+        lengths = [seconds(before), _opening(last)]
+        return None if None in lengths else sum(filter(None, lengths))
+    if statement.does == "parallel":
+        lengths = [_opening(each) for each in statement.members]
+        return None if None in lengths else max(filter(None, lengths), default=0.0)
+    return 0.0
 
 
 def label_of(statement: Statement) -> str:

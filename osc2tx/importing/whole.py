@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 
 from osc2tx.importing.cast import Cast
 from osc2tx.importing.conditions import Trigger
@@ -17,6 +18,7 @@ from osc2tx.importing.endings import (
     go_on_behind,
     held_for,
     is_open,
+    is_open_by,
     is_over,
     without_events,
 )
@@ -89,11 +91,15 @@ class Whole:
         end = seconds(waits)
         lasting = {id(each): members.lasting(each, end) for each in branches}
         is_kept = all(is_open(each) or is_over(each, end) for each in begun)
+        is_sure = {
+            key: each is not None and (not is_open(each) or is_open_by(each, end))
+            for key, each in lasting.items()
+        }
         for branch in branches if all(map(is_open, begun)) else ():
             rest = ends_with(branch, waits)
             if rest is None:
                 continue
-            if all(lasting[id(each)] is not None for each in branches if each is not branch):
+            if all(is_sure[id(each)] for each in branches if each is not branch):
                 structure.references.subtract(ends_of(branch.members))
                 content = [*members.content(branch), *held_for(members.going(branch), rest)]
                 lasting[id(branch)] = composed("serial", content)
@@ -101,7 +107,9 @@ class Whole:
                 return [composed("parallel", side_by_side)]
         side_by_side = [*begun, *(each for each in lasting.values() if each is not None)]
         if is_kept and None not in lasting.values():
-            return [composed("parallel", [*side_by_side, composed("serial", waits)])]
+            if all(is_sure.values()):
+                return [composed("parallel", [*side_by_side, composed("serial", waits)])]
+            return [self._until(structure, side_by_side, endings)]
         done = [members.done(each) for each in branches]
         return [self._until(structure, [*begun, *filter(None, done)], endings)]
 
@@ -110,6 +118,11 @@ class Whole:
     ) -> Statement:
         """Return members side by side, some of which last longer or shorter than the scenario."""
         end = composed("serial", first_of(endings))
+        if isinstance(end.does, When) and all(map(is_open, members)):
+            whole = composed("parallel", members)
+            if not whole.is_composed:
+                return ended(whole, end.does)
+            return replace(whole, until=[end.does], length=None)
         if isinstance(end.does, When):
             return Statement("parallel", members=[*members, end], until=[end.does])
         end.label = self._names.new("", kind="event", base="finished")

@@ -99,6 +99,8 @@ class TimeEquations:
             within = at_most(most)
             self._narrow(terms, within)
             self._demand(terms, within)
+        if terms:
+            self._narrow((whole,), at_least(sum_of(terms)))
         return True
 
     def relate_either(self, options: Sequence[Terms], whole: ir.Expression) -> None:

@@ -194,6 +194,8 @@ class TimeSystem:
             if node.duration is not None:
                 self._equations.relate(terms, node.duration)
             return node, Known(terms)
+        if lengths[-1] is OPEN and node.duration is not None:
+            self._equations.bound(terms, node.duration)  # the last member takes the rest
         whole = node.duration
         if whole is not None and is_range(whole) and len(known) == len(lengths) - 1:
             if not is_filled(self._equations, [Known(terms)], whole):

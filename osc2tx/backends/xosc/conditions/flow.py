@@ -78,9 +78,16 @@ Group: TypeAlias = tuple[Test, ...]
 
 @dataclass(frozen=True, slots=True)
 class Flow:
-    """An OR of groups; within a group all tests must hold. Without groups it never becomes true."""
+    """An OR of groups; within a group all tests must hold. Without groups it never becomes true.
+
+    Attributes:
+        groups: The groups.
+        open_since: Of the end of an open-ended member, which never comes by itself: since when its
+            surroundings may end it. `None`: since its start.
+    """
 
     groups: tuple[Group, ...]
+    open_since: Flow | None = None
 
     @property
     def is_latched(self) -> bool:
@@ -156,7 +163,10 @@ def all_of(flows: Sequence[Flow]) -> Flow:
 
 def any_of(flows: Iterable[Flow]) -> Flow:
     """Return when one of the flows is true."""
-    return Flow(tuple(dict.fromkeys(group for flow in flows for group in flow.groups)))
+    given = tuple(flows)
+    groups = tuple(dict.fromkeys(group for flow in given for group in flow.groups))
+    since = next((flow.open_since for flow in given if flow.open_since is not None), None)
+    return Flow(groups) if groups else Flow((), since)
 
 
 def _without_implied(tests: Iterable[Test]) -> Group:

@@ -17,7 +17,7 @@ from osc2tx import ir
 from osc2tx.backends.xosc.conditions.flow import NEVER, Flow
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.flattening.builder import VERDICT, StoryboardBuilder, construct_of
-from osc2tx.backends.xosc.flattening.lengths import begins_together, length_of
+from osc2tx.backends.xosc.flattening.lengths import begins_together, least_length, length_of
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx_shared.classes import replace
 
@@ -39,8 +39,14 @@ def end_within_duration(
         return content | until
     low, high = builder.ctx.values.bounds(node.duration)
     builder.ctx.report.exact("duration", node.duration.span)
-    if content.is_never:  # it goes on for as long as one likes
-        return start.later(low) | until
+    since = content.open_since
+    if content.is_never and isinstance(node, ir.OneOf):
+        needed = [least_length(builder.ctx, member) for member in node.members]
+        if not any(length is not None and length <= low for length in needed):
+            reason = "whether one of its open-ended members gets to its end, only the run shows"
+            raise Inexpressible(reason, node.duration.span)
+    if content.is_never and (since is None or start.later(low).is_surely_after(since)):
+        return start.later(low) | until  # it goes on for as long as one likes
     if builder.ctx.module.dialect == "carla":
         return content | start.later(high) | until
     if isinstance(node, ir.OneOf):
@@ -50,7 +56,10 @@ def end_within_duration(
     if not isinstance(node, ir.InvokeScenario):
         length = length_of(builder.ctx, replace(node, duration=None, until=()))
     # A member without end fills what the others leave of a duration.
-    fills = isinstance(node, ir.Parallel) and any(map(ir.is_open, node.members))
+    fills = since is not None or (
+        isinstance(node, ir.Parallel) and any(map(ir.is_open, node.members))
+    )
+    content = content if since is None else since
     if length is not None and length <= high and (fills or low <= length):
         return (start.later(low) if length < low else content) | until
     if length is not None and role != "racer":

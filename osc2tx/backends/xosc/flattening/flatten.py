@@ -105,7 +105,7 @@ class Flattener:
     def _serial(self, node: ir.Serial, start: Flow) -> Flow:
         flow = start
         for index, member in enumerate(node.members):
-            flow = self._member(member, flow)
+            began, flow = flow, self._member(member, flow)
             is_last = index + 1 == len(node.members)
             if flow.is_never and not is_last and ir.is_open(member):
                 raise Inexpressible(
@@ -114,6 +114,8 @@ class Flattener:
                     Remedy(instead="a duration or an `until` is exact"),
                 )
             if flow.is_never:
+                if is_last and index and ir.is_open(member):
+                    flow = Flow((), flow.open_since or began)
                 break
             if not is_last:
                 following = self._builder.claimed(node.members[index + 1])
@@ -143,11 +145,22 @@ class Flattener:
             if follows_route(member):
                 raise Inexpressible("a route of the map that others may end", member.span)
         bounding = [(m, end) for m, end in timed if not end.is_never] if timed else list(ends)
+        bounded = [end for _, end in bounding]
+        reached = [
+            (member, end.open_since)
+            for member, end in timed
+            if end.open_since is not None
+            and not any(each.is_surely_after(end.open_since) for each in bounded)
+        ]
         if not bounding:
-            return NEVER
-        if len(bounding) == 1:
-            return bounding[0][1]
-        named = [(self._builder.name_of(member), end) for member, end in bounding]
+            return Flow((), self._all_of(reached) if reached else None)
+        return self._all_of([*bounding, *reached])
+
+    def _all_of(self, ends: Sequence[tuple[ir.Behavior, Flow]]) -> Flow:
+        """Return when the flows of several members are true, each from then on."""
+        if len(ends) == 1:
+            return ends[0][1]
+        named = [(self._builder.name_of(member), end) for member, end in ends]
         are_few_ends = are_few([end for _, end in named])
         return all_of(
             [

@@ -25,11 +25,26 @@ def length_of(ctx: Context, node: ir.Behavior) -> float | None:
             lengths = [length_of(ctx, member) for member in members]
             return None if None in lengths else sum(filter(None, lengths))
         case ir.Parallel(members=members) if node.overlap in (None, "start"):
-            lengths = [length_of(ctx, member) for member in members if not ir.is_open(member)]
+            lengths = [
+                (least_length if ir.is_open(member) else length_of)(ctx, member)
+                for member in members
+            ]
             return None if None in lengths else max(filter(None, lengths), default=0.0)
         case _ if ir.is_instant(node):
             return 0.0
     return None
+
+
+def least_length(ctx: Context, node: ir.Behavior) -> float | None:
+    """Return how long (s) an open-ended member takes at least; `None` if only the run shows it."""
+    match node:
+        case ir.Serial(members=(*before, last)):
+            lengths = [*(length_of(ctx, member) for member in before), least_length(ctx, last)]
+            return None if None in lengths else sum(filter(None, lengths))
+        case ir.Parallel(members=members):
+            lengths = [least_length(ctx, member) for member in members]
+            return None if None in lengths else max(filter(None, lengths), default=0.0)
+    return 0.0
 
 
 def begin_of(ctx: Context, node: ir.Behavior) -> float | None:

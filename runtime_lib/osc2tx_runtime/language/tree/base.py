@@ -223,6 +223,18 @@ class Node(Behaviour):
             self._stop_children(new_status)
         self.status = new_status
 
+    def goes_on(self) -> bool:
+        """Return whether only its surroundings end it from here on; asked while it runs."""
+        return self.open_ended
+
+    def open_since(self) -> tuple[int, float]:
+        """Return since when only they do: the step, and the seconds by which it precedes it."""
+        return self._first_step, self.started_late
+
+    def least_length(self) -> int | None:
+        """Return the steps it needs though it is open-ended; None if only the run shows it."""
+        return 0
+
     def judge_end(self, status: Status) -> Status:
         """Return the final status of the node, given its preliminary one."""
         return status

@@ -71,7 +71,7 @@ class Composition(Node):
         if self._limits is None:
             return status
         late = self._content_lateness() if status is SUCCESS else 0.0
-        return self._limits.judge(status, self._goes_on(), late)
+        return self._limits.judge(status, self._content_goes_on(), late)
 
     @property
     def limits(self) -> DurationLimits | None:
@@ -116,9 +116,13 @@ class Composition(Node):
         """Return whether the members are open-ended."""
         raise NotImplementedError
 
-    def _goes_on(self) -> bool:
-        """Return whether the running members are open-ended."""
-        return self._content_open
+    def goes_on(self) -> bool:
+        """Return whether only its surroundings end it: no duration and no running member does."""
+        return self._limits is None and self._content_goes_on()
+
+    def _content_goes_on(self) -> bool:
+        """Return whether the running members go on; a `serial` first has to reach its last one."""
+        raise NotImplementedError
 
     def length(self) -> int | None:
         """Return the number of steps of the composition, if its members determine it."""
@@ -218,6 +222,20 @@ class Serial(Composition, SequenceComposite):
         context.late = late
         return SUCCESS
 
+    def _content_goes_on(self) -> bool:
+        is_last = self._index == len(self._members) - 1
+        return is_last and goes_on(self.children[-1])
+
+    def open_since(self) -> tuple[int, float]:
+        """Return when its last member has become so."""
+        return open_since(self.children[-1])
+
+    def least_length(self) -> int | None:
+        """Return the steps before its last member, and those that this one needs."""
+        lengths = [length_of(child) for child in self.children[:-1]]
+        known = [n for n in (*lengths, least_length(self.children[-1])) if n is not None]
+        return sum(known) if len(known) == len(self.children) else None
+
     def _content_lateness(self) -> float:
         return ended_late(self.children[-1]) if self.children else super()._content_lateness()
 
@@ -314,8 +332,8 @@ class OneOf(Composition, ParallelComposite):
         fitting = [(m, n) for m, n in lengths if n is None or frame.low <= n <= frame.high]
         return fitting if fitting or self._limits is not None else lengths
 
-    def _goes_on(self) -> bool:
-        return any(is_open(child) for child, _ in self._active)
+    def _content_goes_on(self) -> bool:
+        return any(goes_on(child) for child, _ in self._active)
 
     def _lost(self) -> Status:
         """Fail: no member is left in the race."""
@@ -362,6 +380,21 @@ class OneOf(Composition, ParallelComposite):
 def is_open(child: Behaviour) -> bool:
     """Return whether a member is open-ended; other py_trees behaviours are not."""
     return isinstance(child, Node) and child.open_ended
+
+
+def goes_on(child: Behaviour) -> bool:
+    """Return whether only the surroundings of a running member end it from here on."""
+    return isinstance(child, Node) and child.goes_on()
+
+
+def open_since(child: Behaviour) -> tuple[int, float]:
+    """Return since when only the surroundings of a running member end it: step, lateness (s)."""
+    return child.open_since() if isinstance(child, Node) else (0, 0.0)
+
+
+def least_length(child: Behaviour) -> int | None:
+    """Return the steps that an open-ended member needs; None if only the run shows them."""
+    return child.least_length() if isinstance(child, Node) else None
 
 
 def is_instant(child: Behaviour) -> bool:

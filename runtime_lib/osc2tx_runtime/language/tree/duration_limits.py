@@ -158,7 +158,7 @@ class DurationLimits:
 
         Args:
             status: Of the content.
-            open_ended: Whether the content is open-ended.
+            open_ended: Whether only this duration ends the content from here on.
             late: Seconds by which its exact end precedes this step.
         """
         context = self._node.context
@@ -201,7 +201,8 @@ class DurationLimits:
                 context.request_settling()  # it may still come
                 return RUNNING
             return self._node.fail(f"its duration of {self.text} is over before {self.until}")
-        self.is_over, self.late = True, late
+        self.is_over = True
+        self.late = late if context.step == end else None  # else its members have needed longer
         return SUCCESS
 
     def _unfinished(self) -> str:

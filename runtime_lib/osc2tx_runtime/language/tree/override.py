@@ -58,6 +58,15 @@ class Overridden(Node, Decorator):
         """Store the pass of the start."""
         self._begun = self.context.tick
 
+    def goes_on(self) -> bool:
+        """Return whether only the surroundings of the behavior end it."""
+        return isinstance(self.decorated, Node) and self.decorated.goes_on()
+
+    def open_since(self) -> tuple[int, float]:
+        """Return since when only they do."""
+        child = self.decorated
+        return child.open_since() if isinstance(child, Node) else super().open_since()
+
     def lateness(self) -> float:
         """Return the status of the behavior, if it has ended."""
         return ended_late(self.decorated) if self.decorated.status is SUCCESS else 0.0

@@ -20,10 +20,13 @@ from osc2tx_runtime.language.tree.base import (
 from osc2tx_runtime.language.tree.compositions import (
     Composition,
     Member,
+    goes_on,
     is_instant,
     is_open,
     is_service,
+    least_length,
     length_of,
+    open_since,
 )
 from osc2tx_runtime.language.tree.duration_limits import Duration, bounds_of
 from osc2tx_runtime.language.tree.parallel_execution import Course
@@ -190,7 +193,9 @@ class Parallel(Composition, ParallelComposite):
     def _content_length(self) -> int | None:
         if self._schedule is not None:
             return self._schedule.length
-        lengths = [length_of(child) for child in self._lasting() if not is_open(child)]
+        lengths = [
+            least_length(child) if is_open(child) else length_of(child) for child in self._lasting()
+        ]
         known = [length for length in lengths if length is not None]
         return max(known, default=0) if len(known) == len(lengths) else None
 
@@ -213,10 +218,28 @@ class Parallel(Composition, ParallelComposite):
     def _is_over(self) -> bool:
         """Return whether all bounding members have ended; reactions do not bound it."""
         if self._bounding:
-            return not self._active or (not self._left and not self._instants_run())
+            return not self._active or (not self._left and self._others_go_on())
         return all(is_service(child) for child, _ in self._active) and (
             not self._active or len(self._services) < len(self._members)
         )
+
+    def _others_go_on(self) -> bool:
+        """Return whether the running members that do not bound it may end with it.
+
+        An open-ended `serial` may once it has reached its last member; one of zero time still needs
+        the next pass of this instant.
+        """
+        return all(is_service(child) or goes_on(child) for child, _ in self._active)
+
+    def open_since(self) -> tuple[int, float]:
+        """Return when the last of its members has become so."""
+        since = [open_since(child) for child in self._lasting() if child.status is RUNNING]
+        return max(since, key=lambda each: (each[0], -each[1]), default=super().open_since())
+
+    def least_length(self) -> int | None:
+        """Return the most steps that one of its members needs."""
+        lengths = [least_length(child) for child in self._lasting()]
+        return None if None in lengths else max(filter(None, lengths), default=0)
 
     def _stretches(self) -> bool:
         """Return whether open-ended members fill the rest of the least duration."""
@@ -229,8 +252,9 @@ class Parallel(Composition, ParallelComposite):
         )
         return self._stretched
 
-    def _goes_on(self) -> bool:
-        return self._content_open or self._stretched
+    def _content_goes_on(self) -> bool:
+        running = [child for child in self._lasting() if child.status is RUNNING]
+        return self._stretched or (self._content_open and all(map(goes_on, running)))
 
     def _note_end(self, member: Behaviour) -> None:
         """Store the lateness of the last end."""
@@ -239,8 +263,11 @@ class Parallel(Composition, ParallelComposite):
         self._late = (self.context.step, min(late, ended) if step == self.context.step else ended)
 
     def _content_lateness(self) -> float:
-        step, late = self._late
-        return late if step == self.context.step else super()._content_lateness()
+        now = self.context.step
+        open_ones = [child for child in self._lasting() if is_open(child)]
+        others = [open_since(child) for child in open_ones if child.status is RUNNING]
+        late = [late for step, late in (self._late, *others) if step == now]
+        return min(late) if late else super()._content_lateness()
 
     def _advance_course(self, failed: bool) -> Status:
         """Advance the scheduled members."""

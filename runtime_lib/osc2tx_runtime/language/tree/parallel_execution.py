@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from osc2tx_runtime.language.tree.base import FAILURE, RUNNING, SUCCESS, Status, place_key
-from osc2tx_runtime.language.tree.compositions import Member, is_open
+from osc2tx_runtime.language.tree.compositions import Member, goes_on, is_open
 from osc2tx_runtime.language.tree.parallel_schedule import INF, Schedule
 
 if TYPE_CHECKING:
@@ -100,7 +100,7 @@ class Course:
 
     def _end_open_primary(self, step: int) -> None:
         primary = self._primary
-        if not primary.running or not primary.open_ended or self._failed:
+        if not primary.running or not goes_on(primary.node) or self._failed:
             return
         if self._length is not None:
             assert primary.start is not None
@@ -128,7 +128,7 @@ class Course:
         last = max(ends) if len(ends) > len(self._bounded) else INF
         target = max(end + self._ete.low, min(end + self._ete.high, last))
         for other in self._others:
-            if other.open_ended and other.running and step >= target and not self._failed:
+            if other.running and goes_on(other.node) and step >= target and not self._failed:
                 self._finish(other)
 
     def _problem(self, step: int) -> str:
