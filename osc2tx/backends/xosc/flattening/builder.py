@@ -91,10 +91,17 @@ class StoryboardBuilder:
         return single(replace(state_of("event", name), follows=follows))
 
     def tell_failure(self, name: str, start: Flow) -> Flow:
-        """Add the event that lets the monitor tell that the scenario has failed."""
+        """Add the event that lets the monitor tell that the scenario has failed; return its end.
+
+        An event that is stopped with its act is complete too, so there a mark tells that it was.
+        """
         self.ctx.monitors[VERDICT] = True
+        name = self.ctx.names.new(name)
         action = xml.GlobalAction(xml.SetMonitorAction(monitorRef=VERDICT, value=False))
-        return self.add(self.ctx.names.new(name), (action,), start, actor=self.mark_actor)
+        if self.is_outermost:
+            return self.add(name, (action,), start, actor=self.mark_actor)
+        self.add(name, (action, self.ctx.mark(name)), start, actor=self.mark_actor)
+        return self.is_set(name)
 
     def add_signals(self) -> None:
         """Add the events from outside whose time is given."""

@@ -89,6 +89,8 @@ def finish(builder: StoryboardBuilder, node: ir.Finish, start: Flow) -> Flow:
         ctx.require("a verdict", "1.3")
         ctx.require_support("SetMonitorAction")
         start = builder.tell_failure("fail", start)
+    elif not builder.is_outermost:  # events that are stopped with their act are complete too
+        start = builder.keep(ctx.names.new("finished"), start)
     builder.finished = builder.finished | start
     return start
 
