@@ -95,7 +95,8 @@ class Whole:
             key: each is not None and (not is_open(each) or is_open_by(each, end))
             for key, each in lasting.items()
         }
-        for branch in branches if all(map(is_open, begun)) else ():
+        may_end = all(is_open_by(each, end) for each in begun if is_open(each))
+        for branch in branches if may_end and all(map(is_open, begun)) else ():
             rest = ends_with(branch, waits)
             if rest is None:
                 continue
@@ -107,7 +108,7 @@ class Whole:
                 return [composed("parallel", side_by_side)]
         side_by_side = [*begun, *(each for each in lasting.values() if each is not None)]
         if is_kept and None not in lasting.values():
-            if all(is_sure.values()):
+            if may_end and all(is_sure.values()):
                 return [composed("parallel", [*side_by_side, composed("serial", waits)])]
             return [self._until(structure, side_by_side, endings)]
         done = [members.done(each) for each in branches]
