@@ -149,11 +149,7 @@ def is_open(node: Behavior) -> bool:
             return is_endless and node.duration is None and not node.until
         case Serial(members=members):
             return not node.until and node.duration is None and is_open(members[-1])
-        case Parallel(members=members):
-            lasting = [member for member in members if not is_instant(member)]
-            is_bounded = bool(node.until) or node.duration is not None
-            return not is_bounded and bool(lasting) and all(map(is_open, lasting))
-        case OneOf(members=members):
+        case Parallel(members=members) | OneOf(members=members):
             return not node.until and node.duration is None and all(map(is_open, members))
         case _:
             return False

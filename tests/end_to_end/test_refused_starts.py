@@ -207,7 +207,7 @@ def test_code_of_the_user_is_not_run(shell: Shell) -> None:
     assert "OSC8" not in checked.err + checked.out, checked.err
 
 
-OWN_ACTION = "action vehicle.creep inherits vehicle.drive\n\n"
+OWN_ACTION = "action vehicle.creep\n\n"
 
 
 def test_an_action_that_no_package_brings(shell: Shell) -> None:

@@ -148,10 +148,11 @@ class ModifiableAction(ModifiedMotion):
 
     def setup(self, **kwargs: Any) -> None:
         """Claims the slots of the modifiers, and checks what is known at this time."""
-        if self.has_goal and not self.follows_path:
-            self._phase = phase_of(self, strict=not kwargs["context"].first_come)
-        goals = [each for each in self.modifiers if self._bounds(each)]
-        self._is_held = lasts_until_event(self, goals, strict=not kwargs["context"].first_come)
+        if self.has_goal:
+            is_strict = not kwargs["context"].first_come
+            goals = [each for each in self.modifiers if self._bounds(each)]
+            self._phase = None if self.follows_path else phase_of(self, strict=is_strict)
+            self._is_held = lasts_until_event(self, goals, strict=is_strict)
         if self._phase is not None or self._is_held:
             self.open_ended = True
         check_modifiers(self)
