@@ -64,7 +64,10 @@ def played(xml: str) -> Recording:
 @pytest.mark.slow
 @pytest.mark.parametrize("path", OWN, ids=lambda path: path.stem)
 def test_a_second_document_plays_the_same(path: Path, tmp_path: Path) -> None:
-    """Exported, imported, exported: places within 0.1 m and the way of a step."""
+    """Exported, imported, exported: places within 0.1 m and the way of a step.
+
+    What begins a step later, in an act of its own, brakes that way farther at the speed before.
+    """
     for document in scenarios(Given(path)):
         if document.xml is None or not is_exact(document):
             continue
@@ -80,12 +83,14 @@ def test_a_second_document_plays_the_same(path: Path, tmp_path: Path) -> None:
         before, after = played(document.xml), played(second)
         assert abs(before.end - after.end) <= LATE * STEP + 1e-9, document.name
         for said, rows in before.track.items():
+            fastest = 0.0
             there = {round(row[0] / STEP): row for row in after.track[result.imported.actors[said]]}
             for row in rows:
                 step = round(row[0] / STEP)
                 steps = range(step - LATE, step + LATE + 1)
                 places = [there[each][1:3] for each in steps if each in there]
-                way = abs(row[3]) * STEP
+                fastest = max(fastest, abs(row[3]))
+                way = fastest * STEP
                 assert min(math.dist(row[1:3], each) for each in places) <= NEAR + way, said
 
 
