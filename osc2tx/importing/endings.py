@@ -45,15 +45,15 @@ def is_over(statement: Statement, at: float | None) -> bool:
     return length is not None and at is not None and length < at
 
 
-def is_open_by(statement: Statement, up_to: float | None) -> bool:
-    """Whether an open-ended statement surely is so far that what is around it may end it.
+def may_end(statement: Statement, at: float | None) -> bool:
+    """Whether what is around a statement may end it at a time (s) after its start.
 
-    Args:
-        statement: The statement.
-        up_to: When that is (s); `None`: not known.
+    It is over by then, or open-ended and surely so far; `None`: the time is not known.
     """
+    if not is_open(statement):
+        return is_over(statement, at)
     found = _opening(statement)
-    return found == 0.0 or (found is not None and up_to is not None and found < up_to)
+    return found == 0.0 or (found is not None and at is not None and found < at)
 
 
 def _opening(statement: Statement) -> float | None:

@@ -18,8 +18,8 @@ from osc2tx.importing.endings import (
     go_on_behind,
     held_for,
     is_open,
-    is_open_by,
     is_over,
+    may_end,
     without_events,
 )
 from osc2tx.importing.names import Names
@@ -90,25 +90,19 @@ class Whole:
             return waits
         end = seconds(waits)
         lasting = {id(each): members.lasting(each, end) for each in branches}
-        is_kept = all(is_open(each) or is_over(each, end) for each in begun)
-        is_sure = {
-            key: each is not None and (not is_open(each) or is_open_by(each, end))
-            for key, each in lasting.items()
-        }
-        may_end = all(is_open_by(each, end) for each in begun if is_open(each))
-        for branch in branches if may_end and all(map(is_open, begun)) else ():
+        may_go_on = all(is_open(each) and may_end(each, end) for each in begun)
+        for branch in branches if may_go_on else ():
             rest = ends_with(branch, waits)
-            if rest is None:
+            others = [lasting[id(each)] for each in branches if each is not branch]
+            if rest is None or any(each is None or not may_end(each, end) for each in others):
                 continue
-            if all(is_sure[id(each)] for each in branches if each is not branch):
-                structure.references.subtract(ends_of(branch.members))
-                content = [*members.content(branch), *held_for(members.going(branch), rest)]
-                lasting[id(branch)] = composed("serial", content)
-                side_by_side = [*begun, *filter(None, lasting.values())]
-                return [composed("parallel", side_by_side)]
-        side_by_side = [*begun, *(each for each in lasting.values() if each is not None)]
-        if is_kept and None not in lasting.values():
-            if may_end and all(is_sure.values()):
+            structure.references.subtract(ends_of(branch.members))
+            content = [*members.content(branch), *held_for(members.going(branch), rest)]
+            lasting[id(branch)] = composed("serial", content)
+            return [composed("parallel", [*begun, *filter(None, lasting.values())])]
+        if None not in lasting.values() and all(is_open(e) or may_end(e, end) for e in begun):
+            side_by_side = [*begun, *filter(None, lasting.values())]
+            if all(may_end(each, end) for each in side_by_side):
                 return [composed("parallel", [*side_by_side, composed("serial", waits)])]
             return [self._until(structure, side_by_side, endings)]
         done = [members.done(each) for each in branches]

@@ -7,7 +7,6 @@ what goes on as it did is not said again.
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Sequence
 
 from osc2tx.importing.dimensions import TIME, literal
@@ -22,8 +21,6 @@ from osc2tx.importing.statements import (
     wait,
 )
 from osc2tx_shared.classes import replace
-
-_SECONDS = re.compile(r"(\d+\.?\d*)s")
 
 
 def worded(statement: Statement) -> Statement:
@@ -57,9 +54,9 @@ def _with_sums(members: Sequence[Statement]) -> list[Statement]:
     """Return members of a `serial`, waits for numbers of seconds that follow each other as one."""
     found: list[Statement] = []
     for each in members:
-        pair = [_SECONDS.fullmatch(_time(one)) for one in (*found[-1:], each)]
-        if len(pair) == 2 and pair[0] and pair[1] and not each.comments:
-            added = sum(float(one[1]) for one in pair if one)
+        pair = [*found[-1:], each]
+        added = seconds(pair) if len(pair) == 2 and all(map(_time, pair)) else None
+        if added is not None and not each.comments:
             both = wait(elapsed(literal(round(added, 9), TIME)))
             found[-1] = replace(both, comments=found[-1].comments)
         else:
