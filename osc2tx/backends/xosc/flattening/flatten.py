@@ -213,11 +213,15 @@ class Flattener:
             return self._member(node.members[0], start)
         self._ctx.require_support("ParameterCondition/text", node.span)
         start = self._builder.latched(start, self._builder.name_of(node))
-        end = NEVER
+        begins, ends = list[Flow](), list[Flow]()
         for member, choice in zip(self._courses(node), branch.choices, strict=True):
-            end = end | self._member(member, start & chosen(branch.name, str(choice)))
+            begins.append(start & chosen(branch.name, str(choice)))
+            ends.append(self._member(member, begins[-1]))
         self._ctx.report.exact("one_of", node.span, f"the parameter {branch.name} chooses")
-        return end
+        if any(end.open_since is not None for end in ends) and all(end.is_never for end in ends):
+            since = (end.open_since or at for at, end in zip(begins, ends, strict=True))
+            return Flow((), any_of(since))
+        return any_of(ends)
 
     def _courses(self, node: ir.OneOf) -> Iterator[ir.Behavior]:
         """Yield the members, one of which a run takes: what is known after them is of any."""
