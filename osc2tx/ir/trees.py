@@ -156,8 +156,8 @@ def is_open(node: Behavior) -> bool:
 
 
 def starts_together(node: Parallel) -> bool:
-    """Whether the members of a `parallel` begin when it does."""
-    return node.overlap is None and not (node.start_to_start or node.end_to_end)
+    """Whether the members of a `parallel` begin when it does, and end when they like."""
+    return node.overlap in (None, "start") and not (node.start_to_start or node.end_to_end)
 
 
 def first_actions(member: Behavior) -> list[Invoke]:

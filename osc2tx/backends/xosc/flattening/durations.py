@@ -17,7 +17,7 @@ from osc2tx import ir
 from osc2tx.backends.xosc.conditions.flow import NEVER, Flow
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.flattening.builder import VERDICT, StoryboardBuilder, construct_of
-from osc2tx.backends.xosc.flattening.lengths import begins_together, least_length, length_of
+from osc2tx.backends.xosc.flattening.lengths import least_length, length_of
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx_shared.classes import replace
 
@@ -162,4 +162,6 @@ def _ends_with(node: ir.Composition, *, is_fixed: bool) -> bool:
 
 def _begins_with(node: ir.Composition) -> bool:
     """Whether members follow one another, or begin with a parallel and end when they like."""
-    return isinstance(node, ir.Serial) or (isinstance(node, ir.Parallel) and begins_together(node))
+    return isinstance(node, ir.Serial) or (
+        isinstance(node, ir.Parallel) and ir.starts_together(node)
+    )

@@ -44,6 +44,9 @@ def least_length(ctx: Context, node: ir.Behavior) -> float | None:
         case ir.Parallel(members=members):
             lengths = [least_length(ctx, member) for member in members]
             return None if None in lengths else max(filter(None, lengths), default=0.0)
+        case ir.OneOf(members=members):
+            lengths = [least_length(ctx, member) for member in members]
+            return None if None in lengths else min(length or 0.0 for length in lengths)
     return 0.0
 
 
@@ -51,7 +54,7 @@ def begin_of(ctx: Context, node: ir.Behavior) -> float | None:
     """Return when (s) a member of the scenario begins; `None` if only the run shows it."""
     begin = 0.0
     for parent, before, _ in ir.around(ctx.scenario.body, node):
-        if isinstance(parent, ir.Parallel) and not begins_together(parent):
+        if isinstance(parent, ir.Parallel) and not ir.starts_together(parent):
             return None
         for member in before:
             length = length_of(ctx, member)
@@ -59,8 +62,3 @@ def begin_of(ctx: Context, node: ir.Behavior) -> float | None:
                 return None
             begin += length
     return begin
-
-
-def begins_together(node: ir.Parallel) -> bool:
-    """Whether the members of a `parallel` begin when it does, and end when they like."""
-    return node.overlap in (None, "start") and not (node.start_to_start or node.end_to_end)

@@ -335,6 +335,12 @@ class OneOf(Composition, ParallelComposite):
     def _content_goes_on(self) -> bool:
         return any(goes_on(child) for child, _ in self._active)
 
+    def least_length(self) -> int | None:
+        """Return the least steps that one of its members needs."""
+        lengths = [least_length(child) for child, _ in self._members]
+        known = [length for length in lengths if length is not None]
+        return min(known, default=0) if len(known) == len(lengths) else None
+
     def _lost(self) -> Status:
         """Fail: no member is left in the race."""
         failed = any(child.status is FAILURE for child, _ in self._members)

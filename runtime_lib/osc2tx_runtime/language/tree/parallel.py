@@ -253,8 +253,9 @@ class Parallel(Composition, ParallelComposite):
         return self._stretched
 
     def _content_goes_on(self) -> bool:
-        running = [child for child in self._lasting() if child.status is RUNNING]
-        return self._stretched or (self._content_open and all(map(goes_on, running)))
+        if not self._content_open:
+            return self._stretched
+        return all(goes_on(child) for child in self._lasting() if child.status is RUNNING)
 
     def _note_end(self, member: Behaviour) -> None:
         """Store the lateness of the last end."""
