@@ -17,10 +17,11 @@ from typing import Any
 
 from osc2tx.backends.py_trees.emitter import GeneratedModule
 from osc2tx.backends.xosc import XmlScenario
-from osc2tx.backends.xosc.report import Grade, Measured
 from osc2tx.grading.comparison import ActorDeviation, Deviation
 from osc2tx.grading.measuring import Finding
 from osc2tx.grading.runs import NoEvidence
+from osc2tx.losses.bounds import Measured
+from osc2tx.losses.entries import Grade
 from osc2tx.options import XmlOptions
 from osc2tx.support.records import Records, digest
 from osc2tx_shared.classes import replace

@@ -10,13 +10,13 @@ from pathlib import Path
 from osc2tx import ir
 from osc2tx.backends.py_trees.emitter import GeneratedModule
 from osc2tx.backends.xosc import XmlScenario
-from osc2tx.backends.xosc.report_json import report_json
 from osc2tx.catalogue import catalogue
 from osc2tx.diagnostics import DiagnosticSink, InternalCompilerError, Span
 from osc2tx.grading.comparison import first_unlike
 from osc2tx.grading.findings import find
 from osc2tx.grading.measuring import Finding, Measuring
 from osc2tx.grading.runs import NoEvidence
+from osc2tx.losses.bounds import Metres
 from osc2tx.module_loading import scenarios_of_module
 from osc2tx.options import CompileOptions
 from osc2tx.support.records import Records
@@ -116,8 +116,8 @@ def _graded(
     span = None if finding.is_faithful else _blamed(found, finding)
     is_of_tool = deviation.is_off_road or deviation.is_at_fork
     is_explained = report.measure(finding.measured, None if is_of_tool else span)
-    if span is None or any(isinstance(bound, str) for bound in stated):
-        return _completed(found, source)
+    if span is None or not all(isinstance(bound, Metres) for bound in stated):
+        return _allowed(found)
     if is_explained:
         return _settled(found, source, sink)
     construct = report.construct_at(span, "action")
@@ -130,7 +130,7 @@ def _graded(
         report.approximate(construct, span, what, bound)
     if what is BEYOND or (report.obstacles and source.options.target == "xosc"):
         _complain(sink, construct, span, what, finding)
-    return _completed(found, source)
+    return _allowed(found)
 
 
 def _files(module: ir.Module) -> dict[str, str]:
@@ -149,7 +149,7 @@ def _settled(found: XmlScenario, source: Source, sink: DiagnosticSink) -> XmlSce
     """Return a document after what was open is approximated, which may not be accepted."""
     if source.options.target == "xosc":
         found.report.tell_obstacles(sink)
-    return _completed(found, source)
+    return _allowed(found)
 
 
 def _unmeasured(
@@ -162,16 +162,9 @@ def _unmeasured(
     return _settled(found, source, sink)
 
 
-def _completed(found: XmlScenario, source: Source) -> XmlScenario:
-    """Return a document with its report as it is now; without XML if that does not allow it."""
-    module, is_written = source.module, found.report.is_expressible
-    declared = next(each for each in module.scenarios if each.name == found.name)
-    return replace(
-        found,
-        xml=found.xml if is_written else None,
-        parameters=found.parameters if is_written else None,
-        report_json=report_json(found.report, declared, module),
-    )
+def _allowed(found: XmlScenario) -> XmlScenario:
+    """Return a document; without XML if its report as it is now does not allow it."""
+    return found if found.report.is_expressible else replace(found, xml=None, parameters=None)
 
 
 def _blamed(found: XmlScenario, finding: Finding) -> Span:

@@ -12,7 +12,6 @@ from pathlib import Path
 
 from osc2tx.backends.xosc import XmlScenario
 from osc2tx.backends.xosc.facts.start_places import read_signal, read_spawn
-from osc2tx.backends.xosc.report import Measured, Metres
 from osc2tx.grading.comparison import EXACT, Deviation, compare
 from osc2tx.grading.runs import (
     NoEvidence,
@@ -25,6 +24,7 @@ from osc2tx.grading.runs import (
     values_for,
 )
 from osc2tx.grading.values import Values, corners
+from osc2tx.losses.bounds import Measured, Metres
 from osc2tx.options import XmlOptions
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc import read

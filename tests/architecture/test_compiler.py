@@ -39,11 +39,13 @@ MAY_IMPORT: dict[str, set[str]] = {
     "xosc": {"diagnostics", "options"},
     "importing": {"options", "stdlib", "xosc"},
     "rules": {"catalogue", "diagnostics", "ir"},
-    "backends": {"catalogue", "diagnostics", "ir", "options", "resources", "support", "xosc"},
+    "losses": {"diagnostics", "ir", "options", "xosc"},
+    "backends": {"catalogue", "diagnostics", "ir", "losses", "options", "resources", "support"}
+    | {"xosc"},
     # what runs them
     "module_loading": {"backends", "support"},
-    "grading": {"backends", "catalogue", "diagnostics", "ir", "module_loading", "options", "xosc"}
-    | {"support"},
+    "grading": {"backends", "catalogue", "diagnostics", "ir", "losses", "module_loading"}
+    | {"options", "support", "xosc"},
     "formatter": {"diagnostics", "syntax"},
     "config": {"diagnostics", "options", "support"},
     "compilation": {"syntax", "semantics", "analysis", "ir", "lowering", "backends", "grading"}

@@ -19,8 +19,8 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from osc2tx.backends.xosc import XmlScenario, emit
-from osc2tx.backends.xosc.report import Grade
 from osc2tx.compilation.driver import Compilation
+from osc2tx.losses.entries import Grade
 from osc2tx.options import CompileOptions, XmlOptions
 from osc2tx.xosc.profiles import PROFILES
 from tests.corpus.report import INVALID, compilation_of, manifest

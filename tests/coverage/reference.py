@@ -11,10 +11,10 @@ from lxml import etree
 
 from osc2tx.backends.xosc import XmlScenario
 from osc2tx.backends.xosc.actions import registry
-from osc2tx.backends.xosc.report import Entry as Loss
-from osc2tx.backends.xosc.report import Grade
 from osc2tx.catalogue import catalogue
 from osc2tx.diagnostics import Span
+from osc2tx.losses.entries import Entry as Loss
+from osc2tx.losses.entries import Grade
 from osc2tx.options import XML_VERSIONS, XmlVersion
 from osc2tx.reference import Entry, entries
 from osc2tx.reference.entries import TABLE

@@ -15,10 +15,10 @@ from pathlib import Path
 from typing import Any
 
 from osc2tx.backends.xosc import XmlScenario, emit
-from osc2tx.backends.xosc.report import Entry, Grade
 from osc2tx.diagnostics import DiagnosticSink
 from osc2tx.grading import Source as Played
 from osc2tx.grading import graded
+from osc2tx.losses.entries import Entry, Grade
 from osc2tx.options import XML_VERSIONS, XmlVersion
 from osc2tx.support.records import Records
 from tests.coverage.capabilities import Row

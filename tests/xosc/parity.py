@@ -16,7 +16,6 @@ from types import MappingProxyType
 
 from osc2tx.backends.py_trees.emitter import GeneratedModule, emit
 from osc2tx.backends.xosc import XmlScenario
-from osc2tx.backends.xosc.report import Grade, Metres, rounded_up
 from osc2tx.grading import comparison
 from osc2tx.grading.comparison import Deviation, Recording
 from osc2tx.grading.measuring import PACE
@@ -28,6 +27,8 @@ from osc2tx.grading.runs import (
     run_in_world,
     values_for,
 )
+from osc2tx.losses.bounds import Metres, rounded_up
+from osc2tx.losses.entries import Grade
 from osc2tx.module_loading import scenarios_of_module
 from osc2tx.options import CompileOptions, XmlOptions
 from osc2tx.xosc import read

@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 
 from osc2tx.backends.xosc import XmlScenario
-from osc2tx.backends.xosc.report import Metres
 from osc2tx.grading.comparison import Row
+from osc2tx.losses.bounds import Metres
 from osc2tx.options import XML_VERSIONS, XmlOptions, XmlVersion
 from osc2tx_runtime import RunSettings
 from tests.unit.backends.xosc.documents import PLAIN

@@ -21,7 +21,7 @@ from osc2tx.backends.xosc.conditions.flow import (
 )
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.flattening.storyboard import Act, Event
-from osc2tx.backends.xosc.report import GENERIC
+from osc2tx.losses.entries import GENERIC
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.element import Element
 from osc2tx_shared.classes import replace

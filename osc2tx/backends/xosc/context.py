@@ -12,16 +12,17 @@ from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.facts.map_search import MapSegment
 from osc2tx.backends.xosc.facts.maps import MapFolders, Pose, Roads
 from osc2tx.backends.xosc.logical.sampling import NOTHING_OPEN, Choosing
-from osc2tx.backends.xosc.names import Names
-from osc2tx.backends.xosc.report import GENERIC, Inexpressible, LossReport, Remedy
 from osc2tx.backends.xosc.scopes import Scope, open_scopes
 from osc2tx.backends.xosc.state import ActorState, Demand, merged
 from osc2tx.backends.xosc.values.folding import Values
 from osc2tx.diagnostics import Span
+from osc2tx.losses.entries import GENERIC, Inexpressible, Remedy
+from osc2tx.losses.report import LossReport
 from osc2tx.options import XmlOptions, XmlVersion
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.element import Unwritable
 from osc2tx.xosc.literals import ParameterType, Rule
+from osc2tx.xosc.names import Names
 from osc2tx.xosc.profiles import PROFILES, ToolProfile
 from osc2tx_shared.classes import dataclass
 
@@ -107,7 +108,7 @@ class Context:
         self.options = options
         self.version: XmlVersion = options.version
         self.profile: ToolProfile = PROFILES[options.profile]
-        self.report = LossReport(options)
+        self.report = LossReport(options, scenario, module)
         self.names = Names()
         self.choosing = choosing
         self.root = open_scopes(scenario, module, choosing.given(self.version))

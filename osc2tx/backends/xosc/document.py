@@ -16,6 +16,7 @@ from osc2tx.backends.xosc.flattening.storyboard import StoryboardWriter
 from osc2tx.backends.xosc.logical.parameters import declaration
 from osc2tx.ir.source_text import condensed
 from osc2tx.xosc import elements as xml
+from osc2tx.xosc.columns import declared
 from osc2tx_shared.map_files import DEFAULT_MAP
 
 DATE = "2000-01-01T00:00:00"
@@ -144,10 +145,8 @@ def _parameters(ctx: Context) -> xml.ParameterDeclarations | None:
     point, version = ctx.choosing.point, ctx.version
     given = [declaration(p, point[p.key], values[p.path], version) for p in ctx.choosing.kept]
     if ctx.version < "1.2":
-        given += [
-            xml.ParameterDeclaration(name=name, parameterType=type_, value=value)
-            for name, (type_, value) in ctx.variables.items()
-        ]
+        variables = ctx.variables.items()
+        given += [declared(name, type_, value, version) for name, (type_, value) in variables]
     return xml.ParameterDeclarations(*given) if given else None
 
 

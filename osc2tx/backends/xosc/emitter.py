@@ -20,14 +20,15 @@ from osc2tx.backends.xosc.logical.distributions import document as values_docume
 from osc2tx.backends.xosc.logical.documents import LogicalWriter
 from osc2tx.backends.xosc.logical.parameter_report import report_parameters
 from osc2tx.backends.xosc.logical.sampling import Choosing
-from osc2tx.backends.xosc.names import Names
-from osc2tx.backends.xosc.report import Inexpressible, LossReport
-from osc2tx.backends.xosc.report_json import report_json
 from osc2tx.backends.xosc.scopes import open_scopes
 from osc2tx.diagnostics import Span
+from osc2tx.losses.entries import Inexpressible
+from osc2tx.losses.report import LossReport
+from osc2tx.losses.report_json import report_json
 from osc2tx.options import XmlOptions
 from osc2tx.xosc.element import Element, Unwritable
 from osc2tx.xosc.elements import FileHeader
+from osc2tx.xosc.names import Names
 from osc2tx.xosc.writer import serialize
 from osc2tx_shared.classes import dataclass, replace
 
@@ -47,7 +48,6 @@ class XmlScenario:
         xml: The document; `None` if something in it cannot be said.
         parameters: A document with the values that open parameters may have; `None` without any.
         report: The grades of its constructs.
-        report_json: What is not exact of it, and remarks, as JSON; `None` if there is nothing.
         origins: Where the members stand that the events of the document belong to, by event.
         map_places: Where its map was looked for, so that a change is noticed.
     """
@@ -57,9 +57,13 @@ class XmlScenario:
     xml: str | None
     parameters: str | None
     report: LossReport
-    report_json: str | None
     origins: Mapping[str, Span]
     map_places: tuple[Path, ...]
+
+    @property
+    def report_json(self) -> str | None:
+        """What is not exact of it, and remarks, as JSON; `None` if there is nothing."""
+        return report_json(self.report)
 
 
 def emit(
@@ -109,7 +113,7 @@ class _Emission:
         try:
             open_scopes(self._scenario, self._module)
         except Inexpressible as error:
-            report = LossReport(self._options)
+            report = LossReport(self._options, self._scenario, self._module)
             report.refuse("scenario invocation", self._scenario.span, error)
             return self._made(infix, report)
         version = self._options.version
@@ -138,9 +142,8 @@ class _Emission:
         map_places: tuple[Path, ...] = (),
     ) -> XmlScenario:
         """Return the scenario without its document."""
-        told = report_json(report, self._scenario, self._module)
         name = self._scenario.name
-        return XmlScenario(name, infix, None, None, report, told, origins, map_places)
+        return XmlScenario(name, infix, None, None, report, origins, map_places)
 
     def _write(self, maps: MapFolders, choosing: Choosing) -> tuple[Context, Element | None]:
         """Return the document for a choice of open parameters; `None` if there cannot be one."""

@@ -13,11 +13,12 @@ from typing import NamedTuple
 
 from osc2tx import ir
 from osc2tx.backends.xosc.entities.cast import CastMember, cast_member
-from osc2tx.backends.xosc.names import Deed, Names, deeds
-from osc2tx.backends.xosc.report import Inexpressible, Remedy
+from osc2tx.backends.xosc.names import Deed, deeds
 from osc2tx.backends.xosc.values.constants import Constant, Named
 from osc2tx.backends.xosc.values.folding import Values
 from osc2tx.backends.xosc.values.objects import types_of
+from osc2tx.losses.entries import Inexpressible, Remedy
+from osc2tx.xosc.names import Names
 from osc2tx_shared.classes import dataclass, replace
 
 

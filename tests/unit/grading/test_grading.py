@@ -9,9 +9,10 @@ import pytest
 
 from osc2tx.backends.py_trees import emit
 from osc2tx.backends.xosc import XmlScenario
-from osc2tx.backends.xosc.report import Grade, Metres
 from osc2tx.compilation.driver import Compilation
 from osc2tx.grading import Source, graded
+from osc2tx.losses.bounds import Metres
+from osc2tx.losses.entries import Grade
 from osc2tx.options import CompileOptions, Target, XmlOptions
 from osc2tx.support.records import Records
 from osc2tx_shared.map_files import SHIPPED

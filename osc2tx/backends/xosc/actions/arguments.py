@@ -6,8 +6,9 @@ from osc2tx import ir
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.facts.actors import Pace
-from osc2tx.backends.xosc.report import NOTHING, Inexpressible, Metres, Remedy
 from osc2tx.backends.xosc.values.constants import Constant, Member, Named
+from osc2tx.losses.bounds import Bound
+from osc2tx.losses.entries import NOTHING, Inexpressible, Remedy
 
 
 def construct_of_action(node: ir.Invoke) -> str:
@@ -136,7 +137,7 @@ class Arguments:
         assert entity is not None, "the rules ask for it"
         return entity
 
-    def approximate(self, reason: str, bound: Metres | str, remedy: Remedy = NOTHING) -> None:
+    def approximate(self, reason: str, bound: Bound, remedy: Remedy = NOTHING) -> None:
         """Report that the action or modifier means nearly the same in the XML."""
         self._ctx.report.approximate(self.construct, self.span, reason, bound, remedy)
 

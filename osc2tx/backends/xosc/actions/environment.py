@@ -17,8 +17,8 @@ from osc2tx.backends.xosc.actions.registry import global_action
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.facts.actors import ADHESION, road_condition
 from osc2tx.backends.xosc.names import event_name
-from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.values.constants import Constant, MethodResult, as_number
+from osc2tx.losses.entries import Inexpressible, Remedy
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.literals import CloudState, FractionalCloudCover, PrecipitationType
 

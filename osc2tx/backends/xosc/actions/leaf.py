@@ -23,8 +23,8 @@ from osc2tx.backends.xosc.facts.actors import (
     steepest,
 )
 from osc2tx.backends.xosc.flattening.lengths import begin_of
-from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.state import LONGITUDINAL, NOTHING_KNOWN, ActorState, Demand, merged
+from osc2tx.losses.entries import Inexpressible
 from osc2tx.xosc import elements as xml
 from osc2tx_shared.classes import dataclass, replace
 

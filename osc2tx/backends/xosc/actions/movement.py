@@ -13,8 +13,8 @@ from osc2tx.backends.xosc.actions.speed.courses import hold_speed
 from osc2tx.backends.xosc.actions.speed.speed_changes import change_speed, jump_to
 from osc2tx.backends.xosc.actions.speed.speed_modifiers import time_to_cover
 from osc2tx.backends.xosc.facts.actors import FASTEST, TOP_SPEED, Pace, course_of_speed
-from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.state import LONGITUDINAL, known
+from osc2tx.losses.entries import Inexpressible, Remedy
 
 WAYS = {"along", "along_trajectory"}
 """Modifiers that say where to go."""

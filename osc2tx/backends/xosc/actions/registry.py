@@ -19,7 +19,7 @@ from osc2tx.backends.xosc.actions.leaf import (
     Performance,
     PerformGlobal,
 )
-from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx.losses.entries import Inexpressible
 from osc2tx.xosc import elements as xml
 
 ACTIONS: dict[str, Perform] = {}

@@ -13,8 +13,8 @@ from osc2tx.backends.xosc.actions.speed.speed_changes import within_limits
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.facts.actors import DRAWBAR, FASTEST, held_by, road_condition
-from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.values.constants import Named
+from osc2tx.losses.entries import Inexpressible
 from osc2tx.xosc import elements as xml
 
 

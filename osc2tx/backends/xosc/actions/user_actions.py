@@ -9,10 +9,10 @@ from osc2tx.backends.xosc.actions.arguments import Arguments, construct_of_actio
 from osc2tx.backends.xosc.actions.leaf import Change, Leaf, Performance
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.cast import CastMember
-from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.state import NOTHING_KNOWN, WAY
 from osc2tx.backends.xosc.values.constants import Constant, Member, Named
 from osc2tx.diagnostics import Span
+from osc2tx.losses.entries import Inexpressible, Remedy
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.element import text_of
 

@@ -7,8 +7,8 @@ from typing import NamedTuple, TypeAlias
 
 from osc2tx import ir
 from osc2tx.backends.xosc.context import Context
-from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.values.constants import Constant, Member, Named
+from osc2tx.losses.entries import Inexpressible
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.element import Element
 from osc2tx.xosc.literals import CoordinateSystem, DirectionalDimension, RelativeDistanceType, Rule

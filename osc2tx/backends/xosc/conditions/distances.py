@@ -16,7 +16,7 @@ from osc2tx.backends.xosc.conditions.comparisons import (
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.start_lanes import faces_along, standing_heading
 from osc2tx.backends.xosc.facts.maps import LanePosition, are_opposed
-from osc2tx.backends.xosc.report import NOTHING, Inexpressible, Remedy
+from osc2tx.losses.entries import NOTHING, Inexpressible, Remedy
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.literals import CoordinateSystem, Rule
 

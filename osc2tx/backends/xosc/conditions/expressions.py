@@ -11,8 +11,8 @@ from osc2tx.backends.xosc.conditions.event_parameters import parameter_condition
 from osc2tx.backends.xosc.conditions.flow import NEVER, Edge, Flow, Test, all_of, any_of
 from osc2tx.backends.xosc.conditions.measures import FINITE, MEASURES
 from osc2tx.backends.xosc.context import Context
-from osc2tx.backends.xosc.report import GENERIC, Inexpressible, Remedy
 from osc2tx.backends.xosc.values.constants import Constant, Named
+from osc2tx.losses.entries import GENERIC, Inexpressible, Remedy
 from osc2tx.xosc.literals import Rule
 
 RULES: Mapping[str, Rule] = {

@@ -11,7 +11,7 @@ from itertools import chain, product
 from math import inf, prod
 from typing import Literal, TypeAlias
 
-from osc2tx.backends.xosc.report import Inexpressible, Remedy
+from osc2tx.losses.entries import Inexpressible, Remedy
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.literals import StoryboardElementState
 from osc2tx_shared.classes import dataclass, replace

@@ -30,7 +30,7 @@ from osc2tx.backends.xosc.conditions.distances import (
     space_headway,
 )
 from osc2tx.backends.xosc.context import Context
-from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx.losses.entries import Inexpressible
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.literals import CoordinateSystem, DirectionalDimension
 

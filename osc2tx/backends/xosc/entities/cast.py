@@ -6,8 +6,8 @@ from collections.abc import Mapping
 
 from osc2tx import ir
 from osc2tx.backends.xosc.facts.actors import CATEGORIES, Limits, Shape, limits_of, shape_of
-from osc2tx.backends.xosc.names import plain
 from osc2tx.backends.xosc.values.folding import Values
+from osc2tx.xosc.names import plain
 from osc2tx_shared.classes import dataclass
 
 VEHICLE, PEDESTRIAN, MISC = "Vehicle", "Pedestrian", "MiscObject"

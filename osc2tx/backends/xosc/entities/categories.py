@@ -7,7 +7,7 @@ from typing import NamedTuple, cast
 
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.cast import CastMember
-from osc2tx.backends.xosc.report import Inexpressible, Remedy
+from osc2tx.losses.entries import Inexpressible, Remedy
 from osc2tx.xosc.literals import Role, VehicleCategory
 from osc2tx.xosc.schema import literals
 

@@ -6,8 +6,8 @@ from osc2tx import ir
 from osc2tx.backends.xosc.actions.registry import WITHOUT_FORM, without_form
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.facts.map_search import PARTS, MapQuery, MapSegment, search_map
-from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.values.constants import Constant, Named
+from osc2tx.losses.entries import Inexpressible
 
 without_form(
     "modifier",

@@ -16,8 +16,9 @@ from osc2tx.backends.xosc.entities.categories import (
     vehicle_literal,
 )
 from osc2tx.backends.xosc.facts.actors import RGB, TOP_SPEED
-from osc2tx.backends.xosc.report import GENERIC, Metres
 from osc2tx.backends.xosc.values.constants import Member, Named
+from osc2tx.losses.bounds import Metres
+from osc2tx.losses.entries import GENERIC
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.literals import Role, VehicleCategory
 from osc2tx.xosc.schema import has_attribute

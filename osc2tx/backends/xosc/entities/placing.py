@@ -19,8 +19,8 @@ from osc2tx.backends.xosc.entities.start_statements import (
 )
 from osc2tx.backends.xosc.facts.maps import LanePosition, Pose
 from osc2tx.backends.xosc.facts.start_places import Placed, StartRoom, box_at, trailer_pose
-from osc2tx.backends.xosc.report import NoPlace
 from osc2tx.backends.xosc.state import ActorState, known
+from osc2tx.losses.entries import NoPlace
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.element import Unwritable
 from osc2tx_shared.classes import replace

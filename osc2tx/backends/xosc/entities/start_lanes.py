@@ -15,8 +15,8 @@ from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.entities.start_statements import Start, StartPlace
 from osc2tx.backends.xosc.facts.maps import Lane, LanePosition, Pose, lane_from_edge, offset_from
-from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.state import ActorState, known
+from osc2tx.losses.entries import Inexpressible, Remedy
 from osc2tx.xosc import elements as xml
 
 

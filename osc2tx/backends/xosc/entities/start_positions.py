@@ -34,9 +34,9 @@ from osc2tx.backends.xosc.facts.start_places import (
     open_place,
     place_at_distance,
 )
-from osc2tx.backends.xosc.report import Inexpressible, NoPlace
 from osc2tx.backends.xosc.state import ActorState, known
 from osc2tx.backends.xosc.values.constants import Constant, Named
+from osc2tx.losses.entries import Inexpressible, NoPlace
 from osc2tx_shared.classes import dataclass
 
 at_start("location", "position", "along", "lane", "lateral", "on_path")

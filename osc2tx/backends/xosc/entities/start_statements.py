@@ -14,10 +14,10 @@ from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.entities.declared_roads import check_declared, check_map, is_map
 from osc2tx.backends.xosc.facts.maps import LanePosition
 from osc2tx.backends.xosc.facts.start_places import read_spawn
-from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.scopes import Scope
 from osc2tx.backends.xosc.state import ActorState
 from osc2tx.diagnostics import Span
+from osc2tx.losses.entries import Inexpressible
 from osc2tx.xosc import elements as xml
 from osc2tx_shared.classes import dataclass, replace
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx.losses.entries import Inexpressible
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.opendrive import MapError
 

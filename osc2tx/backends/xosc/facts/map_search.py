@@ -9,8 +9,8 @@ from typing import Any, NamedTuple, TypeVar, cast
 from osc2tx.backends.xosc.facts import refusing
 from osc2tx.backends.xosc.facts.curves import Waypoint
 from osc2tx.backends.xosc.facts.maps import LanePosition, Pose, Roads
-from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.values.constants import Bounds, Constant, Member, MethodResult, Named
+from osc2tx.losses.entries import Inexpressible
 from osc2tx_runtime.domain.map.crossings import Crossing, CrossingType
 from osc2tx_runtime.domain.map.road_graph import graph_of
 from osc2tx_runtime.domain.map.roads_and_lanes import (

@@ -12,7 +12,7 @@ from typing import cast
 
 from osc2tx.backends.xosc.facts import refusing
 from osc2tx.backends.xosc.facts.curves import Waypoint
-from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx.losses.entries import Inexpressible
 from osc2tx_runtime.domain.map.search import find_map
 from osc2tx_runtime.domain.modifiers import Lane
 from osc2tx_runtime.domain.routes.lane_coordinates import place_along_road

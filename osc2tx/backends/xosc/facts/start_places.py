@@ -8,8 +8,8 @@ from osc2tx.backends.xosc.facts import refusing
 from osc2tx.backends.xosc.facts.actors import Shape
 from osc2tx.backends.xosc.facts.map_search import MapSegment
 from osc2tx.backends.xosc.facts.maps import Lane, LanePosition, Pose, Roads
-from osc2tx.backends.xosc.report import Inexpressible, NoPlace
 from osc2tx.diagnostics import Span
+from osc2tx.losses.entries import Inexpressible, NoPlace
 from osc2tx_runtime.domain.placing.default_starts import StartPlaces, TakenBy
 from osc2tx_runtime.domain.placing.start_room import Placed, StartRoom
 from osc2tx_runtime.domain.routes.lane_coordinates import place_at_distance

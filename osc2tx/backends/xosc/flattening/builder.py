@@ -11,8 +11,8 @@ from osc2tx.backends.xosc.flattening.events import EventTable
 from osc2tx.backends.xosc.flattening.storyboard import ACTION, Act, Event
 from osc2tx.backends.xosc.flattening.tree_queries import claims
 from osc2tx.backends.xosc.names import member_name
-from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.state import LATERAL, ActorState, merged
+from osc2tx.losses.entries import Inexpressible
 from osc2tx.xosc import elements as xml
 from osc2tx_shared.classes import replace
 

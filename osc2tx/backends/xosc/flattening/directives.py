@@ -11,9 +11,10 @@ from osc2tx.backends.xosc.actions.user_actions import command_of, no_model, own_
 from osc2tx.backends.xosc.conditions.event_parameters import set_parameters
 from osc2tx.backends.xosc.conditions.flow import NEVER, Edge, Flow, Test, single
 from osc2tx.backends.xosc.flattening.builder import RUN_START, StoryboardBuilder, construct_of
-from osc2tx.backends.xosc.names import event_name, plain
-from osc2tx.backends.xosc.report import GENERIC, Inexpressible
+from osc2tx.backends.xosc.names import event_name
+from osc2tx.losses.entries import GENERIC, Inexpressible
 from osc2tx.xosc import elements as xml
+from osc2tx.xosc.names import plain
 from osc2tx_shared.classes import replace
 
 MANY_TIMES = 1000000

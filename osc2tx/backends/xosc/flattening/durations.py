@@ -18,7 +18,7 @@ from osc2tx.backends.xosc.conditions.flow import NEVER, Flow
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.flattening.builder import VERDICT, StoryboardBuilder, construct_of
 from osc2tx.backends.xosc.flattening.lengths import least_length, length_of
-from osc2tx.backends.xosc.report import Inexpressible, Remedy
+from osc2tx.losses.entries import Inexpressible, Remedy
 from osc2tx_shared.classes import replace
 
 Timed: TypeAlias = ir.Composition | ir.InvokeScenario

@@ -12,10 +12,10 @@ from osc2tx.backends.xosc.conditions.flow import NEVER, Flow, Test, at_time, sin
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.facts.start_places import read_signal
 from osc2tx.backends.xosc.flattening.storyboard import Event
-from osc2tx.backends.xosc.names import plain
-from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.scopes import Scope
+from osc2tx.losses.entries import Inexpressible, Remedy
 from osc2tx.xosc import elements as xml
+from osc2tx.xosc.names import plain
 
 
 class EventTable:

@@ -25,9 +25,9 @@ from osc2tx.backends.xosc.flattening.parallel_overlaps import (
 )
 from osc2tx.backends.xosc.flattening.storyboard import Act
 from osc2tx.backends.xosc.flattening.tree_queries import follows_route
-from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.state import either
 from osc2tx.diagnostics import Span
+from osc2tx.losses.entries import Inexpressible, Remedy
 from osc2tx.xosc.element import Unwritable
 
 WITHOUT_STOPS = Remedy(

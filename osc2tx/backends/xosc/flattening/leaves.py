@@ -16,8 +16,8 @@ from osc2tx.backends.xosc.flattening.builder import RUN_START, StoryboardBuilder
 from osc2tx.backends.xosc.flattening.directives import invoke_global
 from osc2tx.backends.xosc.flattening.durations import time_frame
 from osc2tx.backends.xosc.names import event_name
-from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.state import LATERAL, LONGITUDINAL, WAY, ActorState
+from osc2tx.losses.entries import Inexpressible, Remedy
 from osc2tx.xosc import elements as xml
 from osc2tx_shared.classes import replace
 from osc2tx_shared.rules.combinations import HELD_GOALS

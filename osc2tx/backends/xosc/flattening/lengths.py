@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from osc2tx import ir
 from osc2tx.backends.xosc.context import Context
-from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.values.constants import Bounds
+from osc2tx.losses.entries import Inexpressible
 
 
 def length_of(ctx: Context, node: ir.Behavior) -> float | None:

@@ -16,7 +16,7 @@ from osc2tx.backends.xosc.facts.start_places import plan_starts
 from osc2tx.backends.xosc.flattening.builder import StoryboardBuilder
 from osc2tx.backends.xosc.flattening.lengths import length_of
 from osc2tx.backends.xosc.flattening.tree_queries import claims
-from osc2tx.backends.xosc.report import Inexpressible, Remedy
+from osc2tx.losses.entries import Inexpressible, Remedy
 from osc2tx_shared.classes import replace
 
 

@@ -14,10 +14,10 @@ from dataclasses import field
 from typing import TypeVar
 
 from osc2tx.backends.xosc.conditions.flow import NEVER, Flow, Group, Test
-from osc2tx.backends.xosc.names import Names
 from osc2tx.diagnostics import Span
 from osc2tx.options import XmlVersion
 from osc2tx.xosc import elements as xml
+from osc2tx.xosc.names import Names
 from osc2tx_shared.classes import dataclass
 
 ACTION = "action"

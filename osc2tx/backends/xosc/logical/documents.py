@@ -15,15 +15,7 @@ from typing import TypeAlias
 
 from osc2tx import ir
 from osc2tx.backends.xosc.context import Context
-from osc2tx.backends.xosc.logical.distributions import (
-    MOST_COLUMNS,
-    Column,
-    columns_of,
-    needs_table,
-    single,
-    table,
-    with_columns,
-)
+from osc2tx.backends.xosc.logical.distributions import MOST_COLUMNS, needs_table, single, table
 from osc2tx.backends.xosc.logical.parameters import (
     INSIDE,
     OpenParameter,
@@ -35,6 +27,7 @@ from osc2tx.backends.xosc.logical.sampling import Choosing, Domain, Row, inward
 from osc2tx.options import XmlVersion
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.arithmetic import Range
+from osc2tx.xosc.columns import Column, columns_of, with_columns
 from osc2tx.xosc.comparison import Limits, Place, differences, undefined, with_covering_limits
 from osc2tx.xosc.element import Element
 from osc2tx_shared.classes import dataclass, replace

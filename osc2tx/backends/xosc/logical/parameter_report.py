@@ -8,8 +8,8 @@ from osc2tx import ir
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.logical.documents import Logical
 from osc2tx.backends.xosc.logical.parameters import OpenParameter, told
-from osc2tx.backends.xosc.report import NOTHING, Remedy
 from osc2tx.backends.xosc.scopes import key_of
+from osc2tx.losses.entries import NOTHING, Remedy
 
 MOST_NAMES = 4
 """Parameters of the document that a note names."""

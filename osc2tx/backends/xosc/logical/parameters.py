@@ -12,17 +12,18 @@ from itertools import chain
 from typing import TypeAlias
 
 from osc2tx import ir
-from osc2tx.backends.xosc.names import Names, plain
-from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.scopes import Scope, key_of, open_scopes
 from osc2tx.backends.xosc.values.constants import Constant, Member
 from osc2tx.backends.xosc.values.folding import Values
 from osc2tx.diagnostics import Span
+from osc2tx.losses.entries import Inexpressible
 from osc2tx.options import XmlVersion
 from osc2tx.xosc import elements as xml
+from osc2tx.xosc.columns import declared
 from osc2tx.xosc.element import text_of
 from osc2tx.xosc.expressions import Symbol
 from osc2tx.xosc.literals import ParameterType
+from osc2tx.xosc.names import Names, plain
 from osc2tx_shared.classes import dataclass, replace
 
 STEPS = 4
@@ -284,15 +285,3 @@ def declaration(
             xml.ValueConstraint(rule="lessOrEqual", value=high),
         )
     return declared(parameter.name, parameter.type, value_text(nominal), version, limits)
-
-
-def declared(
-    name: str,
-    type_: ParameterType,
-    value: str,
-    version: XmlVersion,
-    limits: xml.ConstraintGroup | None = None,
-) -> xml.ParameterDeclaration:
-    """Return the declaration of a parameter; before 1.2 `int` is called `integer`."""
-    type_ = "integer" if type_ == "int" and version < "1.2" else type_
-    return xml.ParameterDeclaration(limits, name=name, parameterType=type_, value=value)

@@ -16,10 +16,10 @@ from typing import NamedTuple
 
 from osc2tx import ir
 from osc2tx.backends.xosc.logical.parameters import OpenParameter, Point
-from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.scopes import Scope, open_scopes
 from osc2tx.backends.xosc.values.constants import Constant
 from osc2tx.backends.xosc.values.folding import Values
+from osc2tx.losses.entries import Inexpressible
 from osc2tx.options import XmlVersion
 from osc2tx.support.latin_hypercube import hypercube, thinned
 from osc2tx.xosc.arithmetic import Range

@@ -11,9 +11,9 @@ from collections.abc import Callable, Mapping
 from copy import copy
 
 from osc2tx import ir
-from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.values.constants import Bounds, Constant, Member, MethodResult, Named
 from osc2tx.backends.xosc.values.objects import Objects, UserTypes
+from osc2tx.losses.entries import Inexpressible
 from osc2tx.xosc.expressions import Symbol
 from osc2tx.xosc.numbers import Noted
 

@@ -7,8 +7,8 @@ from collections.abc import Iterable, Iterator, Sequence
 from functools import lru_cache
 
 from osc2tx import ir
-from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.values.constants import Constant, Member, Named, as_number
+from osc2tx.losses.entries import Inexpressible
 
 
 class UserTypes:

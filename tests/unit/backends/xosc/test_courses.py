@@ -10,7 +10,7 @@ from osc2tx.backends.xosc.actions.speed.acceleration import ramp
 from osc2tx.backends.xosc.actions.speed.courses import Computed, through_points
 from osc2tx.backends.xosc.facts.actors import Cosine, Linear, Quintic, SCurve, steepest
 from osc2tx.backends.xosc.facts.curves import Line, Waypoint, sample_curve
-from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx.losses.entries import Inexpressible
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.arithmetic import evaluated
 from osc2tx.xosc.expressions import Symbol

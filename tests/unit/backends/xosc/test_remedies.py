@@ -2,7 +2,7 @@
 
 import pytest
 
-from osc2tx.backends.xosc.report import Remedy
+from osc2tx.losses.entries import Remedy
 from osc2tx.options import XmlOptions, XmlProfile
 from osc2tx.xosc.profiles import PROFILES, ToolProfile
 from tests.unit.backends.xosc.documents import compiled, documents

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 from jsonschema import Draft202012Validator
 
-from osc2tx.backends.xosc.report import Grade
+from osc2tx.losses.entries import Grade
 from tests.golden.test_xosc import CASES, written
 
 DOCS = Path(__file__).parents[4] / "docs"

@@ -24,8 +24,8 @@ from osc2tx.backends.xosc.facts.maps import (
     is_oncoming,
     lane_either_way,
 )
-from osc2tx.backends.xosc.report import GENERIC, Inexpressible
 from osc2tx.backends.xosc.state import LATERAL, ActorState, known
+from osc2tx.losses.entries import GENERIC, Inexpressible
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.literals import DynamicsDimension, DynamicsShape
 from osc2tx_shared.classes import replace

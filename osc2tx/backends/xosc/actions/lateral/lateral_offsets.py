@@ -29,8 +29,8 @@ from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.entities.declared_roads import segment_of
 from osc2tx.backends.xosc.facts.actors import Pace
 from osc2tx.backends.xosc.facts.maps import LanePosition, is_oncoming, lane_from_edge
-from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.state import LATERAL, known
+from osc2tx.losses.entries import Inexpressible, Remedy
 from osc2tx.xosc import elements as xml
 from osc2tx_shared.classes import replace
 

@@ -19,8 +19,8 @@ from osc2tx.backends.xosc.entities.declared_roads import segment_of
 from osc2tx.backends.xosc.facts.curves import Line, Waypoint, sample_curve, thinned
 from osc2tx.backends.xosc.facts.map_search import MapSegment, crossing_of, graph_of, points_of_route
 from osc2tx.backends.xosc.facts.maps import LanePosition, Pose
-from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.values.constants import Constant, Member, MethodResult, Named
+from osc2tx.losses.entries import Inexpressible
 from osc2tx_shared.classes import replace
 
 MADE = {

@@ -25,9 +25,9 @@ from osc2tx.backends.xosc.actions.speed.speed_modifiers import cover_in_time
 from osc2tx.backends.xosc.entities.cast import VEHICLE, CastMember
 from osc2tx.backends.xosc.facts.actors import CRUISE, Linear
 from osc2tx.backends.xosc.facts.maps import Pose, place_along_road
-from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.state import LATERAL, LONGITUDINAL, ActorState, known
 from osc2tx.backends.xosc.values.constants import Member, Named
+from osc2tx.losses.entries import Inexpressible, Remedy
 from osc2tx.xosc import elements as xml
 from osc2tx_shared.classes import replace
 

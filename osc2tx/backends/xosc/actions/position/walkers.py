@@ -17,8 +17,8 @@ from osc2tx.backends.xosc.entities.cast import PEDESTRIAN
 from osc2tx.backends.xosc.facts.actors import FASTEST, Profile, course_of_speed, simpson
 from osc2tx.backends.xosc.facts.curves import Waypoint, thinned
 from osc2tx.backends.xosc.facts.maps import Pose
-from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.state import WAY, known
+from osc2tx.losses.entries import Inexpressible
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.literals import DynamicsShape
 from osc2tx_shared.classes import replace

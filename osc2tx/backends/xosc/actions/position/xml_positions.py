@@ -10,8 +10,9 @@ from osc2tx.backends.xosc.actions.arguments import Arguments
 from osc2tx.backends.xosc.conditions.comparisons import distance_to, of_entity
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.facts.maps import LanePosition, Pose, Roads
-from osc2tx.backends.xosc.report import Inexpressible, Metres
 from osc2tx.backends.xosc.values.constants import Constant, MethodResult, Named, as_number
+from osc2tx.losses.bounds import Metres
+from osc2tx.losses.entries import Inexpressible
 from osc2tx.xosc import elements as xml
 from osc2tx_shared.classes import dataclass
 

@@ -24,8 +24,8 @@ from osc2tx.backends.xosc.actions.signals.traffic_lights import (
     switch,
 )
 from osc2tx.backends.xosc.context import Context
-from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.values.constants import Constant, Named
+from osc2tx.losses.entries import Inexpressible
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.literals import TrafficSignalSemantics
 

@@ -15,8 +15,8 @@ from osc2tx.backends.xosc.actions.leaf import Globals
 from osc2tx.backends.xosc.actions.registry import global_action
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.facts.maps import Roads
-from osc2tx.backends.xosc.report import GENERIC, Inexpressible
 from osc2tx.backends.xosc.values.constants import Constant, Member, MethodResult, Named
+from osc2tx.losses.entries import GENERIC, Inexpressible
 from osc2tx.xosc import elements as xml
 from osc2tx_shared.classes import replace
 

@@ -8,7 +8,7 @@ from osc2tx.backends.xosc.actions.leaf import Change, Leaf, Performance
 from osc2tx.backends.xosc.actions.registry import action
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.facts.actors import automatic_light
-from osc2tx.backends.xosc.report import Inexpressible, Remedy
+from osc2tx.losses.entries import Inexpressible, Remedy
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.literals import LightMode, VehicleLightType
 

@@ -27,9 +27,9 @@ from osc2tx.backends.xosc.facts.actors import (
     course_of_acceleration,
     integral,
 )
-from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.state import LONGITUDINAL, known
 from osc2tx.backends.xosc.values.constants import as_number
+from osc2tx.losses.entries import Inexpressible
 from osc2tx_shared.classes import replace
 
 UNKNOWN_RATE = "the present acceleration is only known during the run"

@@ -13,8 +13,8 @@ from typing import Literal
 from osc2tx.backends.xosc.actions.arguments import Arguments
 from osc2tx.backends.xosc.actions.leaf import Change, Leaf, Performance
 from osc2tx.backends.xosc.facts.actors import Course, Linear
-from osc2tx.backends.xosc.report import GENERIC, Remedy
 from osc2tx.backends.xosc.state import LONGITUDINAL, Interval, known
+from osc2tx.losses.entries import GENERIC, Remedy
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.expressions import Symbol
 from osc2tx.xosc.literals import DynamicsDimension, DynamicsShape

@@ -21,8 +21,9 @@ from osc2tx.backends.xosc.actions.speed.courses import longitudinal, speed_actio
 from osc2tx.backends.xosc.actions.speed.speed_changes import STEP
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.facts.actors import TOP_SPEED
-from osc2tx.backends.xosc.report import GENERIC, Inexpressible, Metres, Remedy, UpToTool
 from osc2tx.backends.xosc.state import LATERAL
+from osc2tx.losses.bounds import Bound, Metres, UpToTool
+from osc2tx.losses.entries import GENERIC, Inexpressible, Remedy
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.literals import LateralDisplacement, LongitudinalDisplacement
 from osc2tx_shared.classes import dataclass, replace
@@ -184,9 +185,7 @@ def _missing(leaf: Leaf, gap: Gap) -> float | None:
 
 def _note_control(leaf: Leaf, missing: float | None) -> None:
     """Report that a tool has a law of its own for a gap; what is missing (m) may be unknown."""
-    bound: Metres | UpToTool = UpToTool(
-        "until it is there, at most by what was missing at its start"
-    )
+    bound: Bound = UpToTool("until it is there, at most by what was missing at its start")
     if missing is not None:
         bound = Metres(missing + _overshoot(leaf, missing), "until it is there")
     # The standard has no law for the control of gaps.

@@ -29,8 +29,8 @@ from osc2tx.backends.xosc.facts.actors import (
     Profile,
     course_of_speed,
 )
-from osc2tx.backends.xosc.report import GENERIC, Inexpressible, Remedy
 from osc2tx.backends.xosc.state import LONGITUDINAL, Demand, known
+from osc2tx.losses.entries import GENERIC, Inexpressible, Remedy
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.literals import DynamicsShape
 from osc2tx_shared.classes import replace

@@ -17,9 +17,9 @@ from osc2tx.backends.xosc.actions.speed.courses import (
 from osc2tx.backends.xosc.actions.speed.speed_changes import change_speed, jump_to, may_jump
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.facts.actors import COMFORT, FASTEST, Course, Linear, Pace
-from osc2tx.backends.xosc.report import GENERIC, Inexpressible, Remedy
 from osc2tx.backends.xosc.state import LONGITUDINAL, Demand, known
 from osc2tx.backends.xosc.values.constants import Bounds
+from osc2tx.losses.entries import GENERIC, Inexpressible, Remedy
 from osc2tx.xosc.literals import DynamicsDimension, DynamicsShape
 
 SHAPED = ("shape", "rate_profile", "rate_peak")

@@ -7,217 +7,33 @@ is approximated though nobody allowed it, and the scenario has no XML.
 from __future__ import annotations
 
 from collections import Counter
-from enum import Enum
-from math import ceil, floor, inf, log10
+from math import inf
 
+from osc2tx import ir
 from osc2tx.diagnostics import DiagnosticSink, Span
+from osc2tx.losses.bounds import UNMEASURED, Bound, Measured, Metres
+from osc2tx.losses.entries import NOTHING, Entry, Grade, Inexpressible, Remedy
 from osc2tx.options import XmlOptions
 from osc2tx.xosc.element import Unwritable
-from osc2tx.xosc.profiles import PROFILES, ToolProfile
-from osc2tx_shared.classes import dataclass, replace
-
-
-class Grade(Enum):
-    """How exactly XML expresses a construct."""
-
-    EXACT = "exact"
-    APPROXIMATED = "approximated"
-    INEXPRESSIBLE = "inexpressible"
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Remedy:
-    """What could express a construct; empty if nothing can.
-
-    Attributes:
-        version: The lowest version of OpenSCENARIO XML that could.
-        profile: A profile of a tool that could; with a version it takes both.
-        instead: What else to write in the scenario, which the XML says exactly; a clause.
-        asks: What that asks of a tool, as in `ToolProfile.unsupported` and `deviates`.
-    """
-
-    version: str | None = None
-    profile: str | None = None
-    instead: str = ""
-    asks: tuple[str, ...] = ()
-
-    def __str__(self) -> str:
-        parts = []
-        if self.version is not None:
-            parts.append(f"OpenSCENARIO XML {self.version}")
-        if self.profile is not None:
-            parts.append(f"profile {self.profile}")
-        return " in ".join(parts)
-
-    def with_tool(self, tool: ToolProfile) -> Remedy:
-        """Return what of it helps who writes for a tool: another one may read other versions."""
-        is_read = self.version is None or self.version in tool.versions
-        is_exact = not any(what in tool.unsupported or what in tool.deviates for what in self.asks)
-        return replace(
-            self,
-            profile=self.profile if is_read else "generic",
-            instead=self.instead if is_exact else "",
-        )
-
-
-NOTHING = Remedy()
-GENERIC = Remedy(profile="generic")
-
-
-class Inexpressible(Unwritable):
-    """A construct that cannot be written down.
-
-    Attributes:
-        span: Where it stands; `None`: the construct that is being looked at.
-        reason: A sentence without full stop.
-        remedy: What could.
-    """
-
-    def __init__(self, reason: str, span: Span | None = None, remedy: Remedy = NOTHING) -> None:
-        super().__init__(reason)
-        self.span = span
-        self.remedy = remedy
-
-
-class NoPlace(Inexpressible):
-    """There is no place for an actor at the start: the embedded world has none, either."""
-
-
-@dataclass(frozen=True, slots=True)
-class Metres:
-    """How far an actor is from its place, at most.
-
-    Attributes:
-        most: Metres.
-        where: When that is, or what it depends on; empty if it is always so.
-    """
-
-    most: float
-    where: str = ""
-
-    def __str__(self) -> str:
-        return " ".join(filter(None, (f"at most {self.rounded:g} m", self.where)))
-
-    @property
-    def rounded(self) -> float:
-        """Metres with two digits, never less than they are."""
-        return rounded_up(self.most)
-
-
-class UpToTool(str):
-    """A bound in words where each tool has a law of its own, which no played document measures."""
-
-    __slots__ = ()
-
-
-UNMEASURED = "not measured"
-"""The bound of what no played document has shown."""
-
-ROUNDING = 1e-6
-
-
-def rounded_up(value: float) -> float:
-    """Return a number with two digits, never less than it is."""
-    if value <= 0.0:
-        return 0.0
-    digit = 10.0 ** (floor(log10(value)) - 1)
-    return round(ceil(value / digit - ROUNDING) * digit, 6)
-
-
-@dataclass(frozen=True, slots=True)
-class Measured:
-    """How far a document is off in runs, at most.
-
-    Attributes:
-        place: Between an actor in the document and in the world (m).
-        speed: Between their speeds (m/s).
-        time: Between the times of an event, or of the end (s).
-        events: Events that are missing, too late or in another order.
-        runs: Number of runs.
-    """
-
-    place: float
-    speed: float
-    time: float
-    events: int = 0
-    runs: int = 1
-
-    def __str__(self) -> str:
-        events = f", with {self.events} other event{'s' * (self.events > 1)}" * bool(self.events)
-        values = self.values()
-        if not any((*values.values(), events)):
-            return "measured: no deviation"
-        return (
-            f"measured: at most {values['place']:g} m, {values['speed']:g} m/s and"
-            f" {values['time']:g} s{events}"
-        )
-
-    def values(self) -> dict[str, float]:
-        """Return the largest deviations, rounded up; noise of the computation counts as none."""
-        found = {"place": self.place, "speed": self.speed, "time": self.time}
-        return {name: rounded_up(value) if value > NOISE else 0.0 for name, value in found.items()}
-
-
-NOISE = 1e-3
-"""Below this, deviations in m, m/s and s are those of rounded numbers in documents."""
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Entry:
-    """The grade of one construct.
-
-    Attributes:
-        construct: What it is, as in the tables of `docs/coverage.md`.
-        span: Where it stands.
-        grade: How exactly XML expresses it.
-        reason: Why it is not exact, or what is worth knowing about an exact one.
-        bound: How far an approximation is from the original: metres, or in words what differs.
-        remedy: What could express it.
-        is_open: It is not exact if the played document deviates; else it is.
-    """
-
-    construct: str
-    span: Span
-    grade: Grade
-    reason: str = ""
-    bound: Metres | str = ""
-    remedy: Remedy = NOTHING
-    is_open: bool = False
-
-    @property
-    def code(self) -> str:
-        """The diagnostic that reports it where XML is asked for."""
-        return "OSC514" if self.grade is Grade.INEXPRESSIBLE else "OSC515"
-
-    @property
-    def message(self) -> str:
-        """Why it stands in the way of XML."""
-        bound = f"; {self.bound}" if self.bound else ""
-        return f"{self.construct}: {self.reason}{bound}"
-
-    @property
-    def help(self) -> str | None:
-        """What to do about it, if there is something to do."""
-        is_approximated = self.grade is Grade.APPROXIMATED
-        better = f"{self.remedy} can say this" if str(self.remedy) else ""
-        parts = (
-            "`--allow-approx` accepts this" if is_approximated else "",
-            f"{better} exactly" if better and is_approximated else better,
-            self.remedy.instead,
-        )
-        return "; ".join(filter(None, parts)) or None
+from osc2tx.xosc.profiles import PROFILES
+from osc2tx_shared.classes import replace
 
 
 class LossReport:
     """Collects the grades of the constructs of one scenario.
 
     Attributes:
+        options: Version and tool, and whether approximations are accepted.
+        scenario: The scenario.
+        module: Where it stands.
         measured: How far the document is off when it is played; `None` if it was not.
         unmeasured: Why it could not be played; empty if it was, or was not to be.
     """
 
-    def __init__(self, options: XmlOptions) -> None:
+    def __init__(self, options: XmlOptions, scenario: ir.Scenario, module: ir.Module) -> None:
         self.options = options
+        self.scenario = scenario
+        self.module = module
         self._tool = PROFILES[options.profile]
         self._entries: dict[Span, dict[str, list[Entry]]] = {}
         self.measured: Measured | None = None
@@ -232,7 +48,7 @@ class LossReport:
         construct: str,
         span: Span,
         reason: str,
-        bound: Metres | str,
+        bound: Bound,
         remedy: Remedy = NOTHING,
     ) -> None:
         """Note that a construct means nearly the same in the XML."""
@@ -295,7 +111,7 @@ class LossReport:
         for of_span in self._entries.values():
             for same in of_span.values():
                 for i, each in enumerate(same):
-                    if each.grade is Grade.APPROXIMATED and type(each.bound) is str:
+                    if each.grade is Grade.APPROXIMATED and isinstance(each.bound, str):
                         said = "" if each.is_open else each.bound
                         bound = "; ".join(filter(None, (said, text)))
                         same[i] = replace(each, bound=bound, is_open=False)

@@ -10,25 +10,26 @@ import json
 from collections.abc import Iterator, Sequence
 
 from osc2tx import ir
-from osc2tx.backends.xosc.report import Entry, Grade, LossReport
 from osc2tx.diagnostics import Span
 from osc2tx.ir.source_text import one_line
+from osc2tx.losses.entries import Entry, Grade
+from osc2tx.losses.report import LossReport
 from osc2tx_shared.text import in_json
 
 FORMAT = 4
 
 
-def report_json(report: LossReport, scenario: ir.Scenario, module: ir.Module) -> str | None:
+def report_json(report: LossReport) -> str | None:
     """Return the report of a scenario; none if all of it is exact and needs no remark."""
     exact = [entry for entry in report.entries if entry.grade is Grade.EXACT]
-    lost = [_entry_data(entry, module) for entry in report.losses]
+    lost = [_entry_data(entry, report.module) for entry in report.losses]
     notes = dict.fromkeys(f"{entry.construct}: {entry.reason}" for entry in exact if entry.reason)
     if not lost and not notes and not report.unmeasured:
         return None
     head: dict[str, object] = {
         "format": FORMAT,
-        "scenario": scenario.name,
-        "source": module.source,
+        "scenario": report.scenario.name,
+        "source": report.module.source,
         "xml_version": report.options.version,
         "xml_profile": report.options.profile,
         "allow_approx": report.options.allow_approx,
