@@ -55,6 +55,7 @@ from osc2tx.ir.declarations import (
     setting_name,
 )
 from osc2tx.ir.dump import dump_ir
+from osc2tx.ir.endings import ends_with_open, goals_of, is_instant, is_open, lasts_until_event
 from osc2tx.ir.expression_text import show, show_arguments
 from osc2tx.ir.expressions import (
     Argument,
@@ -101,9 +102,7 @@ from osc2tx.ir.trees import (
     holds,
     invocations,
     is_first,
-    is_instant,
     is_last,
-    is_open,
     is_single,
     is_timed,
     may_be_cut,

@@ -24,8 +24,8 @@ from osc2tx.ir.behaviors import (
     Wait,
 )
 from osc2tx.ir.declarations import Event
+from osc2tx.ir.endings import is_instant
 from osc2tx.ir.nodes import Scenario
-from osc2tx.ir.trees import is_instant
 from osc2tx.ir.verify import walk_behaviors
 
 Path: TypeAlias = tuple[tuple[Behavior, int], ...]

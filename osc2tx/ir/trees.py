@@ -28,22 +28,6 @@ def entry_of(node: Invoke) -> ActionEntry | None:
     return catalogue().actions.get(node.qualified_name)
 
 
-def is_instant(node: Behavior) -> bool:
-    """Whether a member takes no time."""
-    match node:
-        case Serial(members=members) | Parallel(members=members):
-            return node.duration is None and all(is_instant(member) for member in members)
-        case OneOf(members=members):
-            return all(is_instant(member) for member in members)
-        case Invoke():
-            entry = entry_of(node)
-            return entry is not None and entry.ends == "instant" and node.duration is None
-        case Emit() | Finish() | Call() | On():
-            return True
-        case InvokeScenario() | Wait():
-            return False
-
-
 def invocations(root: Behavior) -> Iterator[Invoke]:
     """Yield the invocations of actions in a behavior, in source order."""
     return (node for node in walk_behaviors(root) if isinstance(node, Invoke))
@@ -138,21 +122,6 @@ def takes_time(node: Invoke) -> bool:
     """Whether an action of the library goes on for some time."""
     entry = entry_of(node)
     return entry is not None and entry.ends in ("goal", "open")
-
-
-def is_open(node: Behavior) -> bool:
-    """Whether a member goes on for as long as one likes."""
-    match node:
-        case Invoke():
-            entry = entry_of(node)
-            is_endless = entry is not None and entry.ends == "open"
-            return is_endless and node.duration is None and not node.until
-        case Serial(members=members):
-            return not node.until and node.duration is None and is_open(members[-1])
-        case Parallel(members=members) | OneOf(members=members):
-            return not node.until and node.duration is None and all(map(is_open, members))
-        case _:
-            return False
 
 
 def starts_together(node: Parallel) -> bool:

@@ -40,43 +40,12 @@ def with_open_duration(
         node = replace(node, duration=duration)
     if node.until or not isinstance(duration, ir.RangeValue):
         return node
-    if not is_open_ended(replace(node, duration=None)):
+    if not ir.is_open(replace(node, duration=None)):
         return node
     drawn = ctx.draw(name, duration, duration.lower.type)
     if written is not None:
         ctx.given[written, DURATION] = drawn
     return replace(node, duration=drawn)
-
-
-def is_open_ended(node: ir.Behavior) -> bool:
-    """Return whether a member never ends by itself."""
-    match node:
-        case ir.Serial(members=members):
-            return not _is_bounded(node) and is_open_ended(members[-1])
-        case ir.OneOf(members=members):
-            return not _is_bounded(node) and all(map(is_open_ended, members))
-        case ir.Parallel(members=members):
-            lasting = [member for member in members if not is_instant(member)]
-            return not _is_bounded(node) and bool(lasting) and all(map(is_open_ended, lasting))
-        case ir.Invoke():
-            return not _is_bounded(node) and _ends(node) == "open" and not _has_goal(node)
-        case _:
-            return False
-
-
-def _is_bounded(node: ir.Serial | ir.Parallel | ir.OneOf | ir.Invoke) -> bool:
-    return node.duration is not None or bool(node.until)
-
-
-def is_instant(node: ir.Behavior) -> bool:
-    """Return whether a member takes no time."""
-    match node:
-        case ir.Emit() | ir.Call() | ir.On():
-            return True
-        case ir.Invoke():
-            return node.duration is None and _ends(node) == "instant"
-        case _:
-            return False
 
 
 def is_free(node: ir.Behavior) -> bool:
@@ -124,10 +93,10 @@ def is_elastic(node: ir.Behavior) -> TypeGuard[ir.Invoke]:
 
     It has no duration, and nothing in it states how fast the goal is reached.
     """
-    if not isinstance(node, ir.Invoke) or _is_bounded(node):
+    if not isinstance(node, ir.Invoke) or node.duration is not None or node.until:
         return False
     return is_free(node) or (
-        _ends(node) == "open" and _has_goal(node) and all(map(_leaves_time, node.modifiers))
+        _ends(node) == "open" and bool(ir.goals_of(node)) and all(map(_leaves_time, node.modifiers))
     )
 
 
@@ -139,15 +108,6 @@ def _leaves_time(call: ir.ModifierCall) -> bool:
 def _ends(node: ir.Invoke) -> str:
     entry = catalogue().actions.get(node.qualified_name)
     return "" if entry is None else entry.ends
-
-
-def _has_goal(node: ir.Invoke) -> bool:
-    """Whether a modifier states a goal, so that the action may end with it."""
-    modifiers = catalogue().modifiers
-    return any(
-        call.at == "end" or (call.name in modifiers and modifiers[call.name].bounds)
-        for call in node.modifiers
-    )
 
 
 _OWN: Key = (DURATION,)

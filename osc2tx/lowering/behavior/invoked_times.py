@@ -13,7 +13,6 @@ from itertools import product
 from typing import TypeAlias
 
 from osc2tx import ir
-from osc2tx.lowering.behavior.durations import is_instant, is_open_ended
 from osc2tx.lowering.behavior.time_expressions import Terms, is_range, names_in
 from osc2tx.lowering.context import LoweringContext
 from osc2tx_shared.classes import dataclass, replace
@@ -168,14 +167,14 @@ class InvokedTimes:
             case ir.Serial(members=members):
                 return tuple(map(self._serial, self._choices(members, frame)))
             case ir.Parallel():
-                lasting = [member for member in node.members if not is_instant(member)]
+                lasting = [member for member in node.members if not ir.is_instant(member)]
                 is_plain = node.start_to_start is None and node.end_to_end is None
                 if not lasting or not is_plain or node.overlap not in (None, "start"):
                     raise _Undecided
                 return tuple(map(self._parallel, self._choices(lasting, frame)))
-        if is_instant(node):
+        if ir.is_instant(node):
             return (Lasting(),)
-        if is_open_ended(node):
+        if ir.is_open(node):
             return (Lasting(goes_on=True),)
         raise _Undecided
 

@@ -17,8 +17,6 @@ from typing import TypeAlias
 from osc2tx import ir
 from osc2tx.lowering.behavior.durations import (
     is_free,
-    is_instant,
-    is_open_ended,
     with_elastic,
 )
 from osc2tx.lowering.behavior.invoked_times import MOST_CHOICES, InvokedTimes, Lasting, ScenarioOf
@@ -103,15 +101,15 @@ class TimeSystem:
                 return node, None
             case ir.InvokeScenario() if is_bounded or node.duration is not None:
                 return node, self._invocation(node)
-            case ir.Invoke(duration=ir.HalfRange(is_lower=True)) if is_open_ended(
+            case ir.Invoke(duration=ir.HalfRange(is_lower=True)) if ir.is_open(
                 replace(node, duration=None)
             ):
                 return node, LEAST
             case ir.Invoke() if node.duration is not None:
                 return node, None if is_range(node.duration) else Known((node.duration,))
-            case _ if is_instant(node):
+            case _ if ir.is_instant(node):
                 return node, INSTANT
-            case _ if is_open_ended(node):
+            case _ if ir.is_open(node):
                 return node, OPEN
             case _:
                 return node, FREE if is_free(node) else None

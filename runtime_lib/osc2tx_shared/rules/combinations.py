@@ -17,9 +17,6 @@ LATERAL_SPEED = "lateral speed"
 RATES = ("speed", "keep_speed", "acceleration")
 """Modifiers that may rule the motion while a place is only met at its end."""
 
-HELD_GOALS = frozenset({"change_lane", "change_speed", "lane", "lateral", "speed"})
-"""Modifiers whose value at the end an actor keeps once it is reached; a place is passed."""
-
 CONTRADICTIONS = ((("movement_mode", "monotonous"), ("option", "prefer_non_physical")),)
 """Arguments that contradict each other in the modifiers of one action."""
 

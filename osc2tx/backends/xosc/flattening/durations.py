@@ -57,7 +57,8 @@ def end_within_duration(
         length = length_of(builder.ctx, replace(node, duration=None, until=()))
     # A member without end fills what the others leave of a duration.
     fills = since is not None or (
-        isinstance(node, ir.Parallel) and any(map(ir.is_open, node.members))
+        isinstance(node, ir.Parallel)
+        and any(ir.is_open(member, is_planned=True) for member in node.members)
     )
     content = content if since is None else since
     if length is not None and length <= high and (fills or low <= length):
@@ -125,7 +126,7 @@ def time_frame(ctx: Context, node: ir.Invoke) -> tuple[float | None, float | Non
         Inexpressible: A duration ends it, and only the run shows when it starts; modifiers state
             what holds at its end.
     """
-    ends = ir.is_open(node)
+    ends = ir.is_open(node, is_planned=True)
     if ctx.module.dialect == "carla" or (not ends and node.duration is not None):
         return None, None
     passed: float | None = 0.0
@@ -134,12 +135,14 @@ def time_frame(ctx: Context, node: ir.Invoke) -> tuple[float | None, float | Non
             length = length_of(ctx, member)
             passed = None if passed is None or length is None else passed + length
         low, high = (0.0, inf) if parent.duration is None else ctx.values.bounds(parent.duration)
-        is_planned = not after and _ends_with(parent, is_fixed=low == high)
+        is_planned = not after and ir.ends_with_open(parent, is_fixed=low == high)
         if not ends:
             is_planned = (
                 passed is not None and all(map(ir.is_instant, after)) and _begins_with(parent)
             )
         if not is_planned:
+            break
+        if parent.duration is None and parent.until:
             break
         if parent.duration is None:
             continue
@@ -152,12 +155,6 @@ def time_frame(ctx: Context, node: ir.Invoke) -> tuple[float | None, float | Non
         reason = f"only the run shows how much is left of the {low:g} s when it starts"
         raise Inexpressible(reason, ending.span)
     return None, None
-
-
-def _ends_with(node: ir.Composition, *, is_fixed: bool) -> bool:
-    """Whether open-ended last members end with a composition, whose duration may be fixed."""
-    is_free = is_fixed or all(ir.is_instant(each) or ir.is_open(each) for each in node.members)
-    return isinstance(node, ir.Serial) or (_begins_with(node) and is_free)
 
 
 def _begins_with(node: ir.Composition) -> bool:

@@ -20,7 +20,6 @@ from osc2tx.backends.xosc.state import LATERAL, LONGITUDINAL, WAY, ActorState
 from osc2tx.losses.entries import Inexpressible, Remedy
 from osc2tx.xosc import elements as xml
 from osc2tx_shared.classes import replace
-from osc2tx_shared.rules.combinations import HELD_GOALS
 
 
 def invoke(builder: StoryboardBuilder, node: ir.Invoke, start: Flow) -> Flow:
@@ -122,7 +121,8 @@ def _ends(
     builder: StoryboardBuilder, node: ir.Invoke, start: Flow, goal: Flow, performance: Performance
 ) -> Flow:
     """Return when an action is over: at its goal, or when others end it."""
-    if _holds_its_goal(node) and builder.ctx.module.dialect != "carla":
+    is_strict = builder.ctx.module.dialect != "carla"
+    if is_strict and ir.lasts_until_event(builder.ctx.scope.scenario.body, node):
         return builder.until(node, start)
     if performance.reached:
         at_place = Flow((tuple(map(Test, performance.reached)),))
@@ -132,14 +132,6 @@ def _ends(
     if performance.ends == "open":
         return builder.limit(node, start)
     return goal | builder.until(node, start)
-
-
-def _holds_its_goal(node: ir.Invoke) -> bool:
-    """Whether an action keeps what it has to reach until its `until` ends it (§7.6.2.5.4)."""
-    entry = ir.entry_of(node)
-    goals = {call.name for call in node.modifiers if call.at == "end"}
-    is_open = entry is not None and entry.ends == "open" and node.duration is None
-    return is_open and bool(node.until) and bool(goals) and goals <= HELD_GOALS
 
 
 def _event_length(performance: Performance) -> float:

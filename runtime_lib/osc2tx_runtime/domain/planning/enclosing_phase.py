@@ -6,14 +6,20 @@ end` has to hold then. Members with a goal have at most 8 s.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from osc2tx_runtime.domain.modifiers import Modifier
 from osc2tx_runtime.language.actions.base_action import BaseAction
 from osc2tx_runtime.language.tree import Parallel, Serial, Until
-from osc2tx_runtime.language.tree.base import Node
-from osc2tx_shared.rules.combinations import HELD_GOALS
+from osc2tx_runtime.language.tree.compositions import is_instant, is_service
+from osc2tx_shared.rules.endings import (
+    Enclosing,
+    Ending,
+    ending_of_parallel,
+    ending_of_serial,
+    keeps_goals,
+)
 
 if TYPE_CHECKING:
     from osc2tx_runtime.language.tree import Behaviour
@@ -47,8 +53,8 @@ def phase_of(action: BaseAction, *, strict: bool) -> DurationLimits | None:
 def lasts_until_event(action: BaseAction, goals: Sequence[Modifier], *, strict: bool) -> bool:
     """Whether an action holds its goal until an `until` ends it, not before (DSL 7.6.2.5.4).
 
-    The `until` is its own, or that of a serial of which it is the last member. A place or a
-    distance is passed, so it ends the action.
+    The `until` is its own, or that of a composition that ends with it. A place or a distance is
+    passed, so it ends the action.
 
     Args:
         action: The action.
@@ -56,15 +62,21 @@ def lasts_until_event(action: BaseAction, goals: Sequence[Modifier], *, strict: 
         strict: Whether the `until` is met exactly, not at the latest.
     """
     is_open = action.registered.ends == "open" and action.duration is None
-    is_held = bool(goals) and all(each.name in HELD_GOALS for each in goals)
-    if not (strict and is_open and is_held):
-        return False
-    node: Behaviour = action
-    while isinstance(parent := node.parent, Serial):
-        if parent.limits is not None or parent.children[-1] is not node:
-            return False
+    return strict and is_open and keeps_goals((each.name for each in goals), _enclosing(action))
+
+
+def _enclosing(node: Behaviour) -> Iterator[Enclosing]:
+    """Yield what is around a node, from the inside out."""
+    while (parent := node.parent) is not None:
+        yield "until" if isinstance(parent, Until) else _ends_with(parent, node)
         node = parent
-    return isinstance(node.parent, Until)
+
+
+def _ends_with(parent: Behaviour, node: Behaviour) -> Enclosing:
+    if not isinstance(parent, Serial | Parallel) or parent.limits is not None:
+        return "other"
+    is_last = parent.children[-1] is node if isinstance(parent, Serial) else _all_open(parent)
+    return "same end" if is_last else "other"
 
 
 def limit_of(action: BaseAction) -> DurationLimits | None:
@@ -83,7 +95,7 @@ def limit_of(action: BaseAction) -> DurationLimits | None:
         parent = node.parent
         if isinstance(parent, Serial):
             after = parent.children[parent.children.index(node) + 1 :]
-            if not all(isinstance(each, Node) and each.instant for each in after):
+            if not all(map(is_instant, after)):
                 return None
         elif not _is_plain(parent):
             return None
@@ -101,14 +113,18 @@ def _is_plain(parallel: Parallel) -> bool:
 
 def _all_open(parallel: Parallel) -> bool:
     """Whether all members are open-ended."""
-    return _is_plain(parallel) and all(map(_is_open, parallel.children))
+    return _is_plain(parallel) and ending_of_parallel(map(_ending_of, parallel.children)) == "open"
 
 
-def _is_open(node: Behaviour) -> bool:
+def _ending_of(node: Behaviour) -> Ending:
+    """Return how a member ends if a duration around it states when, and goals are reached then."""
+    if is_instant(node) or is_service(node):
+        return "instant"
     if isinstance(node, BaseAction):
-        ends = node.registered.ends
-        goes_on = node.duration is None and not getattr(node, "follows_path", False)
-        return ends == "instant" or (ends == "open" and goes_on)
+        goes_on = node.registered.ends == "open" and node.duration is None
+        return "open" if goes_on and not getattr(node, "follows_path", False) else "bounded"
     if isinstance(node, Serial) and node.limits is None:
-        return _is_open(node.children[-1]) if node.children else False
-    return isinstance(node, Parallel) and node.limits is None and _all_open(node)
+        return ending_of_serial(map(_ending_of, node.children))
+    if isinstance(node, Parallel) and node.limits is None and _is_plain(node):
+        return ending_of_parallel(map(_ending_of, node.children))
+    return "bounded"

@@ -24,6 +24,7 @@ from osc2tx_runtime.language.tree.base import (
 )
 from osc2tx_runtime.language.tree.duration_limits import Duration, DurationLimits
 from osc2tx_runtime.language.tree.parallel_schedule import Span
+from osc2tx_shared.rules.endings import Ending, ending_of_one_of, ending_of_serial
 
 if TYPE_CHECKING:
     from osc2tx_runtime.language.context import ExecutionContext
@@ -189,7 +190,7 @@ class Serial(Composition, SequenceComposite):
                     " give it a duration or an until",
                     getattr(child, "source", None) or None,
                 )
-        return bool(self.children) and is_open(self.children[-1])
+        return ending_of_serial(map(ending_of, self.children)) == "open"
 
     def _content_length(self) -> int | None:
         lengths = [length_of(child) for child in self.children]
@@ -287,7 +288,9 @@ class OneOf(Composition, ParallelComposite):
             if self.context.one_of == "seeded":
                 index = self.generator("one_of").randrange(len(members))
             self._members = (members[index],)
-        self._content_open = all(is_open(child) for child, _ in self._members)
+        self._content_open = (
+            ending_of_one_of(ending_of(each) for each, _ in self._members) == "open"
+        )
         self.open_ended = self._content_open and self._limits is None
 
     def _without_rivals(self, members: Sequence[Member], rivals: Rivals) -> tuple[Member, ...]:
@@ -363,7 +366,7 @@ class OneOf(Composition, ParallelComposite):
         return min(known, default=None) if len(known) == len(lengths) else None
 
     def _is_open(self) -> bool:
-        return bool(self.children) and all(is_open(child) for child in self.children)
+        return ending_of_one_of(map(ending_of, self.children)) == "open"
 
     def _advance(self) -> Status:
         winners = [
@@ -386,6 +389,13 @@ class OneOf(Composition, ParallelComposite):
 def is_open(child: Behaviour) -> bool:
     """Return whether a member is open-ended; other py_trees behaviours are not."""
     return isinstance(child, Node) and child.open_ended
+
+
+def ending_of(child: Behaviour) -> Ending:
+    """Return how a member ends; one that only accompanies the others has no time of its own."""
+    if is_instant(child) or is_service(child):
+        return "instant"
+    return "open" if is_open(child) else "bounded"
 
 
 def goes_on(child: Behaviour) -> bool:

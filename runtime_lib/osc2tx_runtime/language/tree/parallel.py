@@ -20,6 +20,7 @@ from osc2tx_runtime.language.tree.base import (
 from osc2tx_runtime.language.tree.compositions import (
     Composition,
     Member,
+    ending_of,
     goes_on,
     is_instant,
     is_open,
@@ -39,6 +40,7 @@ from osc2tx_runtime.language.tree.parallel_schedule import (
     make_schedule,
     spans_of,
 )
+from osc2tx_shared.rules.endings import ending_of_parallel
 
 if TYPE_CHECKING:
     from osc2tx_runtime.language.context import ExecutionContext
@@ -131,7 +133,7 @@ class Parallel(Composition, ParallelComposite):
 
     def _lasting(self) -> list[Behaviour]:
         """Return the members with rules of time; zero-time ones and `on` have none."""
-        return [c for c in self.children if not is_instant(c) and not is_service(c)]
+        return [child for child in self.children if ending_of(child) != "instant"]
 
     def _plan(self) -> Schedule | None:
         lasting = self._lasting()
@@ -186,9 +188,7 @@ class Parallel(Composition, ParallelComposite):
         return ", ".join(texts)
 
     def _is_open(self) -> bool:
-        # Zero-time members bound nothing: `parallel: drive(); emit e` continues.
-        lasting = [child for child in self.children if not is_instant(child)]
-        return bool(lasting) and all(is_open(child) for child in lasting)
+        return ending_of_parallel(map(ending_of, self.children)) == "open"
 
     def _content_length(self) -> int | None:
         if self._schedule is not None:

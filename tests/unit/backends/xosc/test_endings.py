@@ -79,7 +79,48 @@ def test_what_follows_begins_when_it_does_in_the_world(name: str, tmp_path: Path
     said = {report.code for report in compilation.diagnostics}
     assert ("OSC432" in said) == (should is None)
     (document,) = documents(compilation, XmlOptions(version="1.3", allow_approx=True))
+    if should is None:
+        (obstacle,) = document.report.obstacles
+        assert document.xml is None and "never ends by itself" in obstacle.reason
+        return
     assert document.xml is not None, document.report.obstacles
-    assert ('name="emit_over"' in document.xml) == (should is not None)
-    if should is not None:
-        assert played(document.xml, DT).starts["emit_over"] == pytest.approx(should, abs=4 * DT)
+    assert played(document.xml, DT).starts["emit_over"] == pytest.approx(should, abs=4 * DT)
+
+
+KEPT = """\
+import osc.standard.all
+
+namespace null use std, stdtypes
+
+scenario kept:
+    road: map with:
+        keep(it.map_file == "highway.xodr")
+    ego: vehicle
+    event late
+    event reached
+    do parallel(duration: 8s):
+        serial:
+            wait elapsed(6s)
+            emit late
+            wait elapsed(2s)
+        serial:
+            {composition}:
+                ego.drive() with:
+                    lane(2)
+                    position(100m, at: start)
+                    speed(10mps, at: start)
+                    speed(15mps, at: end)
+            with:
+                until @late
+            emit reached
+            ego.drive()
+"""
+
+
+@pytest.mark.parametrize("composition", ["serial", "parallel"])
+def test_a_goal_is_kept_until_the_event_of_a_composition(composition: str, tmp_path: Path) -> None:
+    path = tmp_path / "kept.osc"
+    path.write_text(KEPT.format(composition=composition), encoding="utf-8")
+    (document,) = documents(compiled(path, CompileOptions()), XmlOptions(version="1.3"))
+    assert document.xml is not None, document.report.obstacles
+    assert played(document.xml, DT).starts["emit_reached"] == pytest.approx(6.0, abs=4 * DT)
