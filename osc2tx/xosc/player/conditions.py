@@ -258,7 +258,7 @@ class Conditions:
                 return lambda: world.is_in(element, state)
             case "TrafficSignalCondition":
                 name, state = node.said("name"), node.said("state")
-                return lambda: world.lights.get(name) == state
+                return lambda: world.globals.lights.get(name) == state
             case "UserDefinedValueCondition":
                 return lambda: False  # no action sets such a value
         raise Unplayable(f"<{node.tag}> is not played", node.place)
@@ -267,12 +267,12 @@ class Conditions:
 def _test_of_variable(node: Element, world: World) -> Test:
     """Return the test of a variable: texts are equal or not, numbers compare."""
     name, rule, value = _variable(node), node.said("rule"), node.said("value")
-    if name not in world.variables:  # third-party documents name missing entities
+    if name not in world.globals.variables:  # third-party documents name missing entities
         return lambda: False
     if rule in ("equalTo", "notEqualTo"):
-        return lambda: (world.variables[name] == value) is (rule == "equalTo")
+        return lambda: (world.globals.variables[name] == value) is (rule == "equalTo")
     holds, bound = RULES[rule], float(value)
-    return lambda: holds(float(world.variables[name]), bound)
+    return lambda: holds(float(world.globals.variables[name]), bound)
 
 
 def _variable(node: Element) -> str:

@@ -15,6 +15,7 @@ from osc2tx.xosc.player.bodies import STANDING, Body
 from osc2tx.xosc.player.courses import RULES, number
 from osc2tx.xosc.player.distances import Ruler, asked, between_boxes
 from osc2tx.xosc.player.errors import Unplayable
+from osc2tx.xosc.player.global_state import GlobalState
 from osc2tx.xosc.player.places import place_of
 
 Test: TypeAlias = Callable[[], bool]
@@ -29,8 +30,7 @@ class World(Protocol):
 
     root: Element
     step: int
-    variables: dict[str, str]
-    lights: dict[str, str]
+    globals: GlobalState
     bodies: dict[str, Body]
     ruler: Ruler
 

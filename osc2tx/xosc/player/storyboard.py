@@ -17,9 +17,10 @@ from osc2tx.xosc.player.actions import Stage
 from osc2tx.xosc.player.agenda import Agenda
 from osc2tx.xosc.player.bodies import LATERAL, Body, Running, body_of, couple
 from osc2tx.xosc.player.conditions import BY_THE_STANDARD, Conditions, Reading
-from osc2tx.xosc.player.courses import number, with_parameters
+from osc2tx.xosc.player.courses import with_parameters
 from osc2tx.xosc.player.distances import Ruler
 from osc2tx.xosc.player.errors import Unplayable
+from osc2tx.xosc.player.global_state import GlobalState
 from osc2tx.xosc.reader import read
 from osc2tx_runtime.opendrive import RoadMap
 
@@ -30,6 +31,32 @@ SETTLES = 1000  # passes of an instant
 
 Member = tuple[xml.Event, Sequence[xml.Event], xml.ManeuverGroup]
 """An event, those of its maneuver, and the group of its actors."""
+
+
+class _Act:
+    """An act, with what each step asks of it.
+
+    Attributes:
+        element: The act.
+        start: When it starts; `None`: with the storyboard.
+        stop: When it is stopped; `None`: never.
+        members: Its events.
+        agenda: Which of them are looked at.
+        repeatable: The groups that may be executed again, with their events.
+    """
+
+    def __init__(self, element: xml.Act) -> None:
+        self.element = element
+        self.start, self.stop = element.find(xml.StartTrigger), element.find(xml.StopTrigger)
+        groups = list(element.all(xml.ManeuverGroup))
+        self.members: list[Member] = []
+        for group in groups:
+            for maneuver in group.all(xml.Maneuver):
+                beside = tuple(maneuver.all(xml.Event))
+                self.members += [(event, beside, group) for event in beside]
+        self.agenda = Agenda(len(self.members))
+        several = [group for group in groups if group.maximumExecutionCount > 1]
+        self.repeatable = [(group, tuple(group.below(xml.Event))) for group in several]
 
 
 class Evaluator:
@@ -67,14 +94,7 @@ class Evaluator:
         carries = reading.carries_acceleration
         self.stage = Stage(self.root, self.bodies, road_map, dt, carries=carries)
         self.ruler = Ruler(road_map)
-        variables, parameters = xml.VariableDeclaration, xml.ParameterDeclaration
-        self.variables = {node.name: node.value for node in self.root.below(variables)}
-        self.variables |= {node.name: node.value for node in self.root.below(parameters)}
-        self.lights: dict[str, str] = {}
-        self.cycles = {
-            node.name: (_phases(node), 0, node.delay or 0.0)
-            for node in self.root.below(xml.TrafficSignalController)
-        }
+        self.globals = GlobalState(self.root, self._changed)
         self.states: dict[int, str] = {}
         self.transitions: set[tuple[int, str]] = set()
         self.counts: dict[int, int] = {}
@@ -94,15 +114,12 @@ class Evaluator:
         self.conditions = Conditions(self, dt, reading)
         self._stop = self.root.one(xml.Storyboard).find(xml.StopTrigger)
         self._ending = Agenda(1)
-        self._acts: list[tuple[xml.Act, Sequence[Member], Agenda]] = []
+        self._acts = [_Act(each) for each in self.root.below(xml.Act)]
         self._place: dict[int, tuple[Agenda, int]] = {}
         self._waiting: dict[int | str, list[tuple[Agenda, int]]] = {}
-        for act in self.root.below(xml.Act):
-            members = _members(act)
-            agenda = Agenda(len(members))
-            self._acts.append((act, members, agenda))
-            for index, (event, *_) in enumerate(members):
-                self._place[id(event)] = agenda, index
+        for act in self._acts:
+            for index, (event, *_) in enumerate(act.members):
+                self._place[id(event)] = act.agenda, index
         self._init()
 
     @property
@@ -126,7 +143,7 @@ class Evaluator:
         for action in (
             self.root.one(xml.Storyboard).one(xml.Init).one(xml.Actions).all(xml.GlobalAction)
         ):
-            self._global(action)
+            self.globals.execute(action, self.time)
         couple(self.root, self.bodies)
         for body in self.bodies.values():
             if body.behind is not None:
@@ -153,7 +170,7 @@ class Evaluator:
                 if self._guesses and self._is_lost(body):
                     self.forks.setdefault(name, self.time)
             self.transitions.clear()
-            self._run_cycles()
+            self.globals.advance(self.time)
             if self._settle():
                 self._note_arrivals()
                 return self.time
@@ -184,7 +201,7 @@ class Evaluator:
         for _ in range(SETTLES):
             if any(self._stops() for _ in self._ending.due(self.time)):
                 return True
-            if not any([self._act(*each) for each in self._acts]):
+            if not any([self._act(each) for each in self._acts]):
                 return False
         raise Unplayable(f"the storyboard does not come to rest at {self.time:g} s")
 
@@ -241,41 +258,43 @@ class Evaluator:
 
     # --- acts and events --------------------------------------------------------------------------
 
-    def _act(self, act: xml.Act, events: Sequence[Member], agenda: Agenda) -> bool:
+    def _act(self, act: _Act) -> bool:
         """Take an act further; return whether something has changed."""
-        state, changed = self._state(act), False
+        element, agenda = act.element, act.agenda
+        state, changed = self._state(element), False
         if state == "completeState":
             return False
         if state == "standbyState":
-            trigger = act.find(xml.StartTrigger)
-            if trigger is not None and not self.conditions.fires(trigger):
+            if act.start is not None and not self.conditions.fires(act.start):
                 return False
-            self._enter(act, "runningState", "startTransition")
-            self.starts.setdefault(act.name, self.time)
+            self._enter(element, "runningState", "startTransition")
+            self.starts.setdefault(element.name, self.time)
             changed = True
-        if self.conditions.fires(act.find(xml.StopTrigger)):
-            for event, *_ in events:
+        if self.conditions.fires(act.stop):
+            for event, *_ in act.members:
                 self._break_off(event)
-            self._enter(act, "completeState", "stopTransition")
+            self._enter(element, "completeState", "stopTransition")
             return True
         for index in agenda.due(self.time):
-            if self._event(*events[index]):
+            member = act.members[index]
+            if self._event(*member):
                 changed = True
             else:
-                self._put_off(events[index][0], agenda, index)
-            if self._state(events[index][0]) == "completeState":
+                self._put_off(member[0], agenda, index)
+            if self._state(member[0]) == "completeState":
                 agenda.drop(index)
-        for group in act.all(xml.ManeuverGroup):
-            changed = self._repeat(group, agenda) or changed
+        for group, events in act.repeatable:
+            changed = self._repeat(group, events, agenda) or changed
         if agenda.is_over:
-            self._enter(act, "completeState", "endTransition")
+            self._enter(element, "completeState", "endTransition")
             changed = True
         return changed
 
-    def _repeat(self, group: xml.ManeuverGroup, agenda: Agenda) -> bool:
+    def _repeat(
+        self, group: xml.ManeuverGroup, events: Sequence[xml.Event], agenda: Agenda
+    ) -> bool:
         """Execute a group again that has come to its end, if it may be; return whether it is."""
         done = self.counts.get(id(group), 0) + 1
-        events = list(group.below(xml.Event))
         is_over = all(self._state(event) == "completeState" for event in events)
         if not is_over or not events or done >= group.maximumExecutionCount:
             return False
@@ -352,7 +371,7 @@ class Evaluator:
     def _begin(self, action: xml.Action, group: xml.ManeuverGroup) -> Iterator[Running]:
         inner = action.inner
         if isinstance(inner, xml.GlobalAction):
-            self._global(inner)
+            self.globals.execute(inner, self.time)
         elif isinstance(inner, xml.PrivateAction):
             for actor in group.one(xml.Actors).all(xml.EntityRef):
                 run = self.stage.begin(inner, self.bodies[actor.entityRef], self.time)
@@ -364,74 +383,6 @@ class Evaluator:
             run.done = True
         if self._state(event) != "completeState":
             self._enter(event, "completeState", "stopTransition")
-
-    # --- actions without an entity
-    # ------------------------------------------------------------------
-
-    def _global(self, action: xml.GlobalAction) -> None:
-        inner = action.inner
-        match inner.tag:
-            case "VariableAction" | "ParameterAction":
-                self._set(inner)
-            case "InfrastructureAction":
-                signal = inner.one(xml.TrafficSignalAction).inner
-                if signal.tag == "TrafficSignalStateAction":
-                    self.lights[signal.said("name")] = signal.said("state")
-                else:
-                    name = signal.said("trafficSignalControllerRef")
-                    phases = self.cycles[name][0]
-                    names = [phase.name for phase in phases]
-                    self.cycles[name] = (phases, names.index(signal.said("phase")), self.time)
-                    self._run_cycles()
-            case "EnvironmentAction" | "SetMonitorAction":
-                pass  # weather and monitors have no effect here
-            case _:
-                raise Unplayable(f"<{inner.tag}> is not played", inner.place)
-
-    def _set(self, node: Element) -> None:
-        name = node.get("variableRef") or node.said("parameterRef")
-        self._changed(name)
-        given = node.find(xml.SetAction)
-        if given is not None:
-            self.variables[name] = given.said("value")
-            return
-        rule = node.one(xml.ModifyAction).one(xml.Rule).inner
-        value, before = number(rule, "value"), float(self.variables[name])
-        after = before + value if rule.tag == "AddValue" else before * value
-        self.variables[name] = f"{after:g}"
-
-    def _run_cycles(self) -> None:
-        """Show the phases of the controllers."""
-        for name, (phases, index, since) in self.cycles.items():
-            while self.time >= since + phases[index].duration - 1e-9:
-                since += phases[index].duration
-                index = (index + 1) % len(phases)
-            self.cycles[name] = (phases, index, since)
-            if self.time >= since:
-                for state in phases[index].all(xml.TrafficSignalState):
-                    self.lights[state.said("trafficSignalId")] = state.said("state")
-
-
-def _members(act: xml.Act) -> list[Member]:
-    """Return the events of an act."""
-    found: list[Member] = []
-    for group in act.all(xml.ManeuverGroup):
-        for maneuver in group.all(xml.Maneuver):
-            beside = tuple(maneuver.all(xml.Event))
-            found += [(event, beside, group) for event in beside]
-    return found
-
-
-def _phases(controller: xml.TrafficSignalController) -> Sequence[xml.Phase]:
-    """Return the phases of a cycle, which takes some time.
-
-    Raises:
-        Unplayable: It takes none.
-    """
-    phases = list(controller.all(xml.Phase))
-    if not any(phase.duration > 0.0 for phase in phases):
-        raise Unplayable("a cycle that takes no time is not played", controller.place)
-    return phases
 
 
 def map_of(document: str, folders: Sequence[Path]) -> Path:
