@@ -115,6 +115,7 @@ parser: $(STAMP)
 
 # Everything that is written by a script of ours from something else in the repository.
 tables: $(STAMP)
+	$(BIN)/python tools/make_library.py
 	$(BIN)/python tools/make_maps.py
 	$(BIN)/python tools/make_enums.py
 	$(BIN)/python tools/make_xosc_schema.py

@@ -1,4 +1,4 @@
-"""The first lines of the process.
+"""The first lines of the process, and its last.
 
 Ctrl-C ends it quietly also while the command line is loaded, and a check whose answer is known does
 without the command line.
@@ -41,3 +41,25 @@ def main() -> NoReturn:
         run(answer=answer)
     except KeyboardInterrupt:  # outside of the commands
         os._exit(_INTERRUPTED)
+    except SystemExit as end:
+        _end(end)
+
+
+def _end(end: SystemExit) -> NoReturn:
+    """End the process; the system takes its memory faster than Python frees a million objects.
+
+    Threads that are still at work are left to Python.
+
+    Raises:
+        SystemExit: There are such threads, or the end is not one of ours.
+    """
+    import atexit
+
+    from osc2tx_shared.text import flush
+
+    threading = sys.modules.get("threading")
+    if not isinstance(end.code, int) or (threading and threading.active_count() > 1):
+        raise end
+    atexit._run_exitfuncs()
+    flush()
+    os._exit(end.code)

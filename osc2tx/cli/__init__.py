@@ -10,7 +10,6 @@ the commands, each loaded on first use; `options` and `progress` are shared by t
 
 from __future__ import annotations
 
-import gc
 import signal
 import sys
 from collections.abc import Mapping, Sequence
@@ -103,8 +102,7 @@ def main(arguments: Sequence[str] | None = None, answer: Answer | None = None) -
     """
     session = Session(answer=answer)
     code = _exit_code(sys.argv[1:] if arguments is None else arguments, session)
-    gc.freeze()  # the process ends: no garbage collection of large trees
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # and nothing is left to interrupt
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # nothing is left to interrupt
     sys.exit(code)
 
 

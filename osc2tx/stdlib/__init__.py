@@ -13,7 +13,7 @@ from pathlib import Path
 
 from osc2tx.diagnostics import DiagnosticSink, InternalCompilerError, SourceFile
 from osc2tx.stdlib.meanings import member_meanings
-from osc2tx.stdlib.snapshot import load_snapshot, save_snapshot
+from osc2tx.stdlib.parsed import load_parsed
 from osc2tx.syntax import ast, parse
 
 __all__ = [
@@ -48,13 +48,9 @@ def library_source(name: str, standard: str) -> SourceFile:
 
 @cache
 def library_file(name: str, standard: str) -> ast.File:
-    """Return a parsed file of the library; parsed once, then read from its snapshot."""
+    """Return the AST of a file of the library."""
     source = library_source(name, standard)
-    file = load_snapshot(source, standard)
-    if file is None:
-        file = parse_library_file(source)
-        save_snapshot(file, standard)
-    return file
+    return load_parsed(source, standard) or parse_library_file(source)
 
 
 @cache

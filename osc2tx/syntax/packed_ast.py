@@ -1,8 +1,8 @@
-"""An AST as plain data and back, for snapshots of texts that do not change.
+"""An AST as plain data of JSON and back, for texts that are parsed before they are used.
 
-The data consist of tuples, lists, strings and numbers only, one column for each field of each
-class of node. Columns are filled in by loops that run in C, so unpacking takes a fraction of the
-time that parsing takes. The data cannot execute code.
+The data consist of lists, strings and numbers only, one column for each field of each class of
+node. Columns are filled in by loops that run in C, so unpacking takes a fraction of the time that
+parsing takes. The data cannot execute code.
 """
 
 from __future__ import annotations
@@ -12,15 +12,16 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import fields
 from enum import Enum
 from functools import cache
-from itertools import repeat
+from itertools import accumulate, pairwise, repeat
+from operator import add
 from typing import Any
 
 from osc2tx.diagnostics import SourceFile, Span
 from osc2tx.syntax import ast
 
-Column = tuple[str, Any]
-Group = tuple[str, int, list[Column]]  # name of the class, number of nodes, columns of its fields
-Packed = list[Group]
+Column = Sequence[Any]  # its shape and its content
+Group = Sequence[Any]  # name of the class, number of nodes, columns of its fields
+Packed = Sequence[Group]
 
 NONE = -1  # the index of `None`
 
@@ -63,13 +64,15 @@ def _column(group: Sequence[ast.Node], field: str, indexes: dict[ast.Node, int])
     """Return the values of a field in the plainest shape that holds them all."""
     values = [getattr(node, field) for node in group]
     if field == "span":
-        return "spans", ([span.start for span in values], [span.end for span in values])
+        starts = [span.start for span in values]
+        steps = [after - before for before, after in pairwise([0, *starts])]
+        return "spans", (steps, [span.end - span.start for span in values])
     if all(isinstance(value, Enum) for value in values):
         return "enum", (type(values[0]).__name__, [value.value for value in values])
     if all(isinstance(value, tuple) for value in values):
         if any(isinstance(item, ast.Node) for value in values for item in value):
             return "tuples", [tuple(indexes[item] for item in value) for value in values]
-        return "plain", values
+        return "plain tuples", values
     if not any(isinstance(value, ast.Node) for value in values):
         return "plain", values
     if all(value is None or isinstance(value, ast.Node) for value in values):
@@ -119,8 +122,12 @@ def _values(
     match shape:
         case "plain":
             return list(content)
+        case "plain tuples":
+            return map(tuple, content)
         case "spans":
-            return map(Span, repeat(source), *content)
+            steps, lengths = content
+            starts = list(accumulate(steps))
+            return map(Span, repeat(source), starts, map(add, starts, lengths))
         case "nodes":
             return map(node_at, content)
         case "tuples":

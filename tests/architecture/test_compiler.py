@@ -22,7 +22,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "options": set(),
     # stages, in the order in which they run
     "syntax": {"diagnostics", "support"},
-    "stdlib": {"diagnostics", "syntax", "version"},
+    "stdlib": {"diagnostics", "syntax"},
     "catalogue": set(),
     "semantics": {
         "catalogue",

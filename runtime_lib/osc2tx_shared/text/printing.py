@@ -221,6 +221,12 @@ def _write(name: StreamName, text: str) -> None:
         raise OutputError(described, error.strerror or str(error), code) from None
 
 
+def flush() -> None:
+    """Write out what others have printed, such as code of a user."""
+    sys.stdout.flush()
+    sys.stderr.flush()
+
+
 def _abandon(stream: TextIO) -> None:
     """Lead a stream nowhere, or the interpreter complains about its unwritten rest at the end."""
     try:
