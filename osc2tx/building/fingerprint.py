@@ -9,6 +9,7 @@ import time
 from collections.abc import Iterator
 from functools import cache
 from importlib.util import find_spec
+from operator import attrgetter
 from pathlib import Path
 
 from osc2tx.resources import resource_dir
@@ -77,9 +78,9 @@ def _files() -> Iterator[tuple[str, str, os.stat_result]]:
             yield name, spec.origin, os.stat(spec.origin)
     while folders:  # a thousand files, looked at by each process: loops without calls of ours
         inner, folder = folders.pop()
-        for own in sorted(os.listdir(folder)):
-            path = f"{folder}/{own}"
+        for entry in sorted(os.scandir(folder), key=attrgetter("name")):
+            own = entry.name
             if own.endswith(_KINDS):
-                yield f"{inner}/{own}", path, os.stat(path)
-            elif "." not in own and own != "__pycache__" and os.path.isdir(path):
-                folders.append((f"{inner}/{own}", path))
+                yield f"{inner}/{own}", entry.path, entry.stat()
+            elif "." not in own and own != "__pycache__" and entry.is_dir():
+                folders.append((f"{inner}/{own}", entry.path))

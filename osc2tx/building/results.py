@@ -165,9 +165,9 @@ def check(compilation: Compilation, run: RunTexts = ()) -> None:
         compilation: The file.
         run: The options of runs that are stated for it.
     """
-    from osc2tx.building.refused_starts import report_refused_starts
-
     if compilation.check():
+        from osc2tx.building.refused_starts import report_refused_starts
+
         report_refused_starts(compilation, run)
 
 

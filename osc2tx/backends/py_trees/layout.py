@@ -109,8 +109,12 @@ def environment() -> Environment:
     """Return the environment: strict about undefined names, with filters that lay code out."""
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
+    from osc2tx.backends.py_trees.compiled_templates import CompiledTemplates
+
+    folder = template_folder()
     made = Environment(
-        loader=FileSystemLoader(template_folder()),
+        loader=FileSystemLoader(folder),
+        bytecode_cache=CompiledTemplates(folder),
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,

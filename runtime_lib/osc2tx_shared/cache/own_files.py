@@ -14,8 +14,10 @@ from pathlib import Path
 
 # Links are not followed, and a pipe instead of the file does not block.
 _READ_FLAGS = os.O_RDONLY
+_WRITE_FLAGS = os.O_WRONLY | os.O_CREAT | os.O_EXCL
 for _flag in ("O_NOFOLLOW", "O_NONBLOCK", "O_BINARY"):
     _READ_FLAGS |= getattr(os, _flag, 0)
+    _WRITE_FLAGS |= getattr(os, _flag, 0)
 
 
 def cache_folder(wanted: Path | None = None) -> Path | None:
@@ -55,14 +57,13 @@ def read_own(path: Path) -> bytes | None:
 
 def write_own(path: Path, data: bytes) -> bool:
     """Write a file atomically; return whether that was possible."""
-    from tempfile import mkstemp  # rarely needed
-
     folder = path.parent
+    temporary = folder / f".{path.name}.{os.urandom(8).hex()}"  # `tempfile` takes long to import
     try:
         folder.mkdir(mode=0o700, parents=True, exist_ok=True)
         if not _is_ours(os.lstat(folder), stat.S_ISDIR):
             return False
-        descriptor, temporary = mkstemp(dir=folder, prefix=f".{path.name}.")
+        descriptor = os.open(temporary, _WRITE_FLAGS, 0o600)
     except OSError:
         return False
     try:
@@ -70,7 +71,7 @@ def write_own(path: Path, data: bytes) -> bool:
             stream.write(data)
         os.replace(temporary, path)
     except OSError:
-        Path(temporary).unlink(missing_ok=True)
+        temporary.unlink(missing_ok=True)
         return False
     return True
 

@@ -1,9 +1,13 @@
 """Templates place ready fragments; they never compute."""
 
+import sys
+from pathlib import Path
+
 import jinja2
 import pytest
 from jinja2 import nodes
 
+from osc2tx.backends.py_trees.compiled_templates import CompiledTemplates
 from osc2tx.backends.py_trees.layout import environment, template_folder
 
 TEMPLATES = sorted(path.name for path in template_folder().glob("*.j2"))
@@ -40,3 +44,56 @@ def test_no_method_calls(name: str) -> None:
 def test_undefined_names_are_errors() -> None:
     with pytest.raises(jinja2.UndefinedError):
         environment().get_template("module.py.j2").render()
+
+
+# --- Compiled ------------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A folder with a template, in which modules would be compiled."""
+    monkeypatch.setattr(sys, "dont_write_bytecode", False)
+    monkeypatch.setattr(sys, "pycache_prefix", None)
+    (tmp_path / "a.j2").write_text("{{ 1 }} file")
+    return tmp_path
+
+
+def rendered(folder: Path, monkeypatch: pytest.MonkeyPatch) -> tuple[str, int]:
+    """Render the template; return its text and how often a template was compiled for it."""
+    compiled: list[str] = []
+    compile_template = jinja2.Environment._compile  # type: ignore[attr-defined]
+
+    def counted(env: jinja2.Environment, source: str, filename: str) -> object:
+        compiled.append(filename)
+        return compile_template(env, source, filename)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(jinja2.Environment, "_compile", counted)
+        loader = jinja2.FileSystemLoader(folder)
+        env = jinja2.Environment(loader=loader, bytecode_cache=CompiledTemplates(folder))
+        return env.get_template("a.j2").render(), len(compiled)
+
+
+def test_a_template_is_compiled_once(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    assert rendered(folder, monkeypatch) == ("1 file", 1)
+    assert [each.suffix for each in (folder / "__pycache__").iterdir()] == [".j2c"]
+    assert rendered(folder, monkeypatch) == ("1 file", 0)
+    (folder / "a.j2").write_text("{{ 2 }} files")
+    assert rendered(folder, monkeypatch) == ("2 files", 1)
+    assert rendered(folder, monkeypatch) == ("2 files", 0)
+
+
+def test_nothing_is_kept_where_no_module_is(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "dont_write_bytecode", True)
+    assert rendered(folder, monkeypatch) == ("1 file", 1)
+    assert not (folder / "__pycache__").exists()
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="permissions of POSIX")
+def test_a_compiled_template_that_others_may_write_is_not_read(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    rendered(folder, monkeypatch)
+    (kept,) = (folder / "__pycache__").iterdir()
+    kept.chmod(0o666)
+    assert rendered(folder, monkeypatch) == ("1 file", 1)
