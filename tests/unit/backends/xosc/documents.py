@@ -11,6 +11,7 @@ from osc2tx.compilation.driver import Compilation
 from osc2tx.diagnostics import DiagnosticSink
 from osc2tx.grading import Source, graded, unplayed
 from osc2tx.options import CompileOptions, XmlOptions
+from tests.unit.backends.xosc.kept_runs import kept_runs
 
 PLAIN = CompileOptions()
 
@@ -57,7 +58,8 @@ def graded_documents(compilation: Compilation, options: XmlOptions) -> tuple[Xml
     """Return the documents of a file as builds grade them; each keeps to its report."""
     module, folder, sink = module_of(compilation), compilation.path.parent, DiagnosticSink()
     source = _source(module, compilation.options, options, folder)
-    found = graded(emit(module, options, folder), source, sink)
+    with kept_runs():
+        found = graded(emit(module, options, folder), source, sink)
     assert not sink.has_errors, sink.sorted()
     return found
 
