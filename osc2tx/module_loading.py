@@ -9,16 +9,17 @@ import sys
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from functools import lru_cache
-from importlib.abc import InspectLoader, MetaPathFinder
 from importlib.machinery import ModuleSpec
 from pathlib import Path, PurePosixPath
 from types import CodeType, ModuleType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 from osc2tx.support.paths import COVERAGE_MODEL, SOURCE_MAP, real_path
 from osc2tx_runtime import Scenario, ScenarioError
 
 if TYPE_CHECKING:
+    from importlib.abc import Loader
+
     from osc2tx.backends.py_trees.emitter import GeneratedModule
 
 
@@ -57,8 +58,10 @@ def _dotted(module: GeneratedModule) -> str:
     return ".".join((*PurePosixPath(module.source).parts[:-1], module.stem))
 
 
-class _TextLoader(MetaPathFinder, InspectLoader):
+class _TextLoader:
     """Finds and loads modules from given texts, with their packages.
+
+    It has the methods of `importlib.abc`, which takes longer to import than a module to load.
 
     Attributes:
         names: Of all of them.
@@ -78,7 +81,7 @@ class _TextLoader(MetaPathFinder, InspectLoader):
             return ModuleSpec(fullname, None, is_package=True)
         if fullname not in self._modules:
             return None
-        spec = ModuleSpec(fullname, self, origin=self._place(fullname))
+        spec = ModuleSpec(fullname, cast("Loader", self), origin=self._place(fullname))
         spec.has_location = True
         return spec
 
@@ -86,9 +89,13 @@ class _TextLoader(MetaPathFinder, InspectLoader):
         """Return the text of a module, also for messages that quote a line."""
         return self._modules[fullname].python
 
-    def get_code(self, fullname: str) -> CodeType:
-        """Return the compiled text; those of libraries are compiled once for many scenarios."""
-        return _compiled(self.get_source(fullname), self._place(fullname))
+    def create_module(self, spec: ModuleSpec) -> None:
+        """Leave it to Python to create a module."""
+
+    def exec_module(self, module: ModuleType) -> None:
+        """Execute a module; those of libraries are compiled once for many scenarios."""
+        name = module.__name__
+        exec(_compiled(self.get_source(name), self._place(name)), module.__dict__)
 
     def get_data(self, path: str) -> bytes:
         """Return the source map of a module.

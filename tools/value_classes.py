@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 DECORATOR = "dataclass"
-NEEDS_DICT = ("__dict__", "cached_property")
-"""A class in which one of these is said needs a `__dict__`: it stays a class of Python."""
+NEEDS_DICT = "__dict__"
+"""A class in which this is said needs one: it stays a class of Python."""
 
 
 @dataclass
@@ -163,8 +163,7 @@ class Sources:
 
 def needs_dict(node: ast.ClassDef) -> bool:
     """Whether a class says that its instances have a `__dict__`."""
-    text = ast.unparse(node)
-    return any(word in text for word in NEEDS_DICT)
+    return NEEDS_DICT in ast.unparse(node)
 
 
 def field_lines(node: ast.ClassDef) -> Iterator[ast.AnnAssign]:

@@ -128,7 +128,8 @@ class CallCheck:
             if argument.parameter != "shape" or entry.shape is None:
                 continue
             wanted, value = entry.shape, argument.value
-            if wanted not in (*self._kinds(value), "any_shape"):
+            kinds = (*self._kinds(value), "any_shape")
+            if wanted not in kinds:
                 self._sink.report(
                     "OSC513",
                     argument.span,

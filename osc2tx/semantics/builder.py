@@ -21,6 +21,7 @@ from osc2tx.semantics.symbols import (
     ActionSymbol,
     ActorSymbol,
     EnumSymbol,
+    FieldSymbol,
     ScenarioSymbol,
     StructSymbol,
 )
@@ -163,4 +164,6 @@ def _model(
         symbols=symbols,
         known_units=tuple(r.scope.all_units()),
         elements=list_elements(symbols, references, bindings),
+        global_parameters=tuple(s for s in symbols if isinstance(s, FieldSymbol)),
+        callees=frozenset(binding.callee for binding in bindings.values()),
     )

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import field
-from functools import cached_property
 
 from osc2tx.semantics.symbols import (
     ActionSymbol,
@@ -52,6 +51,8 @@ class SemanticModel:
         symbols: The symbols of the user's files, in source order, imported files first.
         known_units: Every unit, also those of the library.
         elements: The elements of lists of objects that constraints describe one by one.
+        global_parameters: Those of the program (§7.3.14), in the order of `symbols`.
+        callees: All symbols that are called, invoked or applied.
     """
 
     root: ast.File
@@ -66,16 +67,8 @@ class SemanticModel:
     symbols: tuple[Symbol, ...] = ()
     known_units: tuple[UnitSymbol, ...] = ()
     elements: Mapping[FieldSymbol, tuple[FieldSymbol, ...]] = field(default_factory=dict)
-
-    @cached_property
-    def global_parameters(self) -> tuple[FieldSymbol, ...]:
-        """The global parameters of the program (§7.3.14), in the order of `symbols`."""
-        return tuple(s for s in self.symbols if isinstance(s, FieldSymbol))
-
-    @cached_property
-    def callees(self) -> frozenset[Symbol]:
-        """All symbols that are called, invoked or applied."""
-        return frozenset(binding.callee for binding in self.bindings.values())
+    global_parameters: tuple[FieldSymbol, ...] = ()
+    callees: frozenset[Symbol] = frozenset()
 
     def element_of(self, list_: Symbol | None, index: ast.Expression) -> FieldSymbol | None:
         """Return an element of a list that is a declared object."""

@@ -8,7 +8,6 @@ expected tokens.
 
 from __future__ import annotations
 
-from functools import cached_property
 from typing import Any
 
 EOF = -1
@@ -120,12 +119,15 @@ class Network:
     def __init__(self, serialized: list[int]) -> None:
         """Take it as the generated parser has it."""
         self._serialized = serialized
+        self._network: Any = None
 
-    @cached_property
+    @property
     def _read(self) -> Any:
-        from antlr4.atn.ATNDeserializer import ATNDeserializer as Reader
+        if self._network is None:
+            from antlr4.atn.ATNDeserializer import ATNDeserializer as Reader
 
-        return Reader().deserialize(self._serialized)
+            self._network = Reader().deserialize(self._serialized)
+        return self._network
 
     def types_in(self, state: int, context: ParserRuleContext) -> frozenset[int]:
         """Return the types of tokens that fit a state, in a context whose rule is being read."""

@@ -8,7 +8,6 @@ operations that can have any value of their type.
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cached_property
 from typing import TypeAlias
 
 from osc2tx.analysis.constraints.constants import ConstantEvaluator, WithoutValueError
@@ -73,23 +72,36 @@ class OperationList:
         """Begin with none; all are added before the first question."""
         self.items: list[Operation] = []
         self.alone: Domain | None = None  # domain of its parameter under a plain one, once known
+        # The answers; mypyc makes a plain property of a `cached_property`.
+        self._keys: frozenset[Key] | None = None
+        self._keys_in_order: tuple[Key, ...] | None = None
+        self._is_plain: bool | None = None
 
-    @cached_property
+    @property
     def keys(self) -> frozenset[Key]:
         """The parameters in it."""
-        return frozenset(self.keys_in_order)
+        if self._keys is None:
+            self._keys = frozenset(self.keys_in_order)
+        return self._keys
 
-    @cached_property
+    @property
     def keys_in_order(self) -> tuple[Key, ...]:
         """The parameters, in order of occurrence: the order of a set differs between runs."""
-        return tuple(dict.fromkeys(o.key for o in self.items if o.key is not None))
+        if self._keys_in_order is None:
+            keys = [o.key for o in self.items if o.key is not None]
+            self._keys_in_order = tuple(dict.fromkeys(keys))
+        return self._keys_in_order
 
-    @cached_property
+    @property
     def is_plain(self) -> bool:
         """Whether it compares one parameter with constants: one visit narrows all it can."""
-        *operands, _ = self.items
-        variables = sum(o.key is not None for o in operands)
-        return variables == 1 and all(o.key is not None or self._is_constant(o) for o in operands)
+        if self._is_plain is None:
+            *operands, _ = self.items
+            variables = sum(o.key is not None for o in operands)
+            self._is_plain = variables == 1 and all(
+                o.key is not None or self._is_constant(o) for o in operands
+            )
+        return self._is_plain
 
     def _is_constant(self, operation: Operation) -> bool:
         converts = operation.name == "convert"

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from functools import partial
-from importlib import import_module
 from pathlib import Path, PurePosixPath
-from pkgutil import walk_packages
 from types import MappingProxyType
 
 from osc2tx import ir
@@ -31,11 +29,9 @@ from osc2tx.xosc.elements import FileHeader
 from osc2tx.xosc.names import Names
 from osc2tx.xosc.writer import serialize
 from osc2tx_shared.classes import dataclass, replace
+from osc2tx_shared.registering import import_all
 
-for _module in walk_packages(
-    actions.__path__, f"{actions.__name__}."
-):  # they register the forms that they write
-    import_module(_module.name)
+import_all(actions.__name__, actions.__path__)  # they register the forms that they write
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import sys
 from collections.abc import Callable, Iterator, Sequence
-from traceback import extract_tb, format_exc
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from osc2tx_runtime.errors import NOT_MET, RUN_FAILED, OwnCode, ScenarioError, SettingsError, coded
@@ -59,6 +58,8 @@ def main(*scenarios: type[Scenario], argv: Sequence[str] | None = None) -> int:
         complain(f"error: {error}")
         return EXIT_UNREADABLE
     except Exception as error:  # the edge of the process
+        from traceback import format_exc
+
         put(format_exc(), err=True)
         place = place_in_own_code(error, scenarios)
         if place is not None:
@@ -73,6 +74,8 @@ def place_in_own_code(error: Exception, scenarios: Sequence[type[Scenario]]) -> 
 
     User code are the modules of the classes and their bases that the compiler did not write.
     """
+    from traceback import extract_tb  # not for a run that ends well
+
     bases = {base.__module__ for scenario in scenarios for base in scenario.__mro__}
     modules = [sys.modules[name] for name in bases if name in sys.modules]
     files = {

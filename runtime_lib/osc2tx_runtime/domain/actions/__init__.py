@@ -8,8 +8,6 @@ world reports that the goal is reached.
 
 from __future__ import annotations
 
-from importlib import import_module
-from pkgutil import walk_packages
+from osc2tx_shared.registering import import_all
 
-for _module in walk_packages(__path__, f"{__name__}."):  # they register their actions
-    import_module(_module.name)
+import_all(__name__, __path__)  # they register their actions

@@ -7,9 +7,6 @@ the DSL; `osc2tx_runtime.modifiers` has them by these names, as scenarios import
 
 from __future__ import annotations
 
-from importlib import import_module
-from pkgutil import walk_packages
-
 from osc2tx_runtime.domain.modifiers.map.base import MapModifier as MapModifier
 from osc2tx_runtime.domain.modifiers.map.crossings import *  # noqa: F403
 from osc2tx_runtime.domain.modifiers.map.files import *  # noqa: F403
@@ -20,6 +17,7 @@ from osc2tx_runtime.domain.modifiers.movement.lane import *  # noqa: F403
 from osc2tx_runtime.domain.modifiers.movement.orientation import *  # noqa: F403
 from osc2tx_runtime.domain.modifiers.movement.position import *  # noqa: F403
 from osc2tx_runtime.domain.modifiers.movement.speed import *  # noqa: F403
+from osc2tx_shared.registering import import_all
 
 from .base import Modifier as Modifier
 from .base import MovementModifier as MovementModifier
@@ -27,5 +25,4 @@ from .base import Value as Value
 from .base import value_of as value_of
 from .registry import MODIFIERS as MODIFIERS
 
-for _module in walk_packages(__path__, f"{__name__}."):  # noqa: F405 (they register)
-    import_module(_module.name)
+import_all(__name__, __path__)  # noqa: F405 (they register)

@@ -13,8 +13,6 @@ the phase of one action, `run` all phases of a run; ADR 6 defines failures and w
 
 from __future__ import annotations
 
-from importlib import import_module
-from pkgutil import iter_modules
+from osc2tx_shared.registering import import_all
 
-for _module in iter_modules(__path__, f"{__name__}."):
-    import_module(_module.name)  # monitors register
+import_all(__name__, __path__)  # monitors register
