@@ -11,8 +11,6 @@ a check.
 from __future__ import annotations
 
 import json
-import os
-import zlib
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import count
 from pathlib import Path
@@ -21,6 +19,8 @@ from typing import TYPE_CHECKING, Any, Literal
 from osc2tx.building.fingerprint import tool_stamp
 from osc2tx.building.jobs import Job
 from osc2tx.building.places import Places
+from osc2tx.building.present_files import PresentFiles
+from osc2tx.building.result_store import ResultStore
 from osc2tx.building.results import (
     Dependency,
     Detail,
@@ -38,16 +38,12 @@ from osc2tx.compilation.roots import innermost
 from osc2tx.config import ConfigFiles
 from osc2tx.diagnostics import SourceFile
 from osc2tx.support.records import Records, digest
-from osc2tx_shared.cache import cache_folder, forget_the_oldest, read_own, write_own
+from osc2tx_shared.cache import cache_folder
 from osc2tx_shared.classes import replace
 
 if TYPE_CHECKING:
     from osc2tx.options import CompileOptions
 
-FORMAT = 6
-MOST_RECORDS = 4  # of one text: with imports as several branches have them
-MOST_FILES = 128  # in each of the 256 folders of a kind
-BYTE_ORDER_MARK = b"\xef\xbb\xbf"
 Kind = Literal["build", "check"]
 
 
@@ -68,12 +64,10 @@ class ResultCache:
         stamp = tool_stamp(folder) if folder else None
         self._kinds: tuple[Kind, ...] = ("check", "build") if kind == "check" else ("build",)
         self._folder = folder if stamp else None
+        self._store = ResultStore(folder) if folder and stamp else None
         self._stamp = stamp
         self._configs = configs or ConfigFiles()
-        self._written: set[Path] = set()
-        self._texts: dict[str, bytes | None] = {}
-        self._digests: dict[str, str] = {}
-        self._real: dict[str, str] = {}
+        self._files = PresentFiles()
         self._clean: dict[str, bool] = {}
         self._options: dict[tuple[object, ...], tuple[CompileOptions, str]] = {}
         self._places: dict[tuple[object, ...], Places] = {}
@@ -92,14 +86,14 @@ class ResultCache:
 
     def load(self, job: Job) -> FileResult | None:
         """Return the result of a job if there is one that holds; without texts of outputs."""
-        text = self._text(str(job.path)) if self._folder else None
-        if text is None:
+        text = self._files.text(str(job.path)) if self._store else None
+        if self._store is None or text is None:
             return None
         places = self._places_of(job)
         for kind in self._kinds:
-            for record in self._records(self._key(kind, job, places, text)):
+            for record in self._store.records(self._key(kind, job, places, text)):
                 try:
-                    result = self._restore(job, record, places, text)
+                    result = self._restore(job, record, places, text, self._store)
                 except (KeyError, IndexError, TypeError, ValueError):  # damaged: as missing
                     continue
                 if result is not None and not self._lacks_starts(kind, result):
@@ -113,66 +107,24 @@ class ResultCache:
 
     def with_texts(self, result: FileResult) -> FileResult | None:
         """Return a result with the texts of its outputs; `None` if those are not stored."""
-        data = read_own(self._bundle(result.outputs)) if self._folder else None
-        try:
-            texts = json.loads(zlib.decompress(data or b""))
-            outputs = tuple(
-                replace(made, text=text) for made, text in zip(result.outputs, texts, strict=True)
-            )
-        except (ValueError, TypeError, zlib.error):
-            return None
-        is_whole = all(digest(made.text.encode()) == made.digest for made in outputs if made.text)
-        return replace(result, outputs=outputs) if is_whole else None
+        outputs = self._store.with_texts(result.outputs) if self._store else None
+        return None if outputs is None else replace(result, outputs=outputs)
 
     def keep(self, result: FileResult) -> None:
         """Store a result; not being able to is no problem."""
-        if self._folder is None or result.dependencies is None or result.source is None:
+        if self._store is None or result.dependencies is None or result.source is None:
             return
         places = self._places_of(result.job)
         if any(places.are_in(text) for text in _messages(result)):
             return  # its content is not valid elsewhere
         key = self._key(self._kinds[0], result.job, places, result.source.text.encode())
-        if any(made.text is not None for made in result.outputs):
-            texts = json.dumps([made.text for made in result.outputs]).encode()
-            self._write(self._bundle(result.outputs), zlib.compress(texts, 1))
-        self._put(key, self._record(result, places))
+        self._store.keep_texts(result.outputs)
+        self._store.put(key, self._record(result, places, self._store))
 
     def close(self) -> None:
         """Remove what has not been written for the longest time, where there is too much."""
-        for folder in self._written:
-            forget_the_oldest(folder, MOST_FILES)
-
-    # --- Files of the cache -----------------------------------------------------------------------
-
-    def _place(self, kind: str, name: str) -> Path:
-        assert self._folder is not None, "there is a cache"
-        return self._folder / kind / name[:2] / name[2:]
-
-    def _bundle(self, outputs: Sequence[OutputRecord]) -> Path:
-        return self._place("texts", digest("".join(made.digest for made in outputs).encode()))
-
-    def _write(self, place: Path, data: bytes) -> None:
-        if write_own(place, data):
-            self._written.add(place.parent)
-
-    def _records(self, key: str) -> list[dict[str, Any]]:
-        data = read_own(self._place("results", key))
-        try:
-            document = json.loads(data or b"{}")
-            records = document["records"] if document["format"] == FORMAT else []
-            return [each for each in records if isinstance(each, dict)]
-        except (ValueError, KeyError, TypeError, RecursionError):
-            return []
-
-    def _put(self, key: str, record: Mapping[str, Any]) -> None:
-        """Store a record before those of the same text; one with the same imports is replaced."""
-        others = [
-            each
-            for each in self._records(key)
-            if each.get("dependencies") != record["dependencies"] and each != record
-        ]
-        document = {"format": FORMAT, "records": [record, *others[: MOST_RECORDS - 1]]}
-        self._write(self._place("results", key), json.dumps(document).encode())
+        if self._store is not None:
+            self._store.forget_the_oldest()
 
     def _key(self, kind: Kind, job: Job, places: Places, text: bytes) -> str:
         is_link = not job.is_asked and job.path.is_symlink()
@@ -182,7 +134,7 @@ class ResultCache:
 
     # --- Records ----------------------------------------------------------------------------------
 
-    def _record(self, result: FileResult, places: Places) -> Mapping[str, Any]:
+    def _record(self, result: FileResult, places: Places, store: ResultStore) -> Mapping[str, Any]:
         assert result.source is not None and result.dependencies is not None, "it is to last"
         writer = ReportWriter(result.source, places.write)
         record = {
@@ -207,17 +159,22 @@ class ResultCache:
             "sources": writer.sources(),
         }
         for key, text in writer.library.items():
-            self._write(self._place("library", key), text.encode())
+            store.keep_library(key, text)
         return record
 
     def _restore(
-        self, job: Job, record: Mapping[str, Any], places: Places, text: bytes
+        self,
+        job: Job,
+        record: Mapping[str, Any],
+        places: Places,
+        text: bytes,
+        store: ResultStore,
     ) -> FileResult | None:
         dependencies = tuple(
             Dependency(places.read(asked), found and places.read(found), known, Detail(detail))
             for asked, found, known, detail in record["dependencies"]
         )
-        present = [self._present(each) for each in dependencies]
+        present = [self._files.now(each) for each in dependencies]
         if None in present:
             return None
         imported = []
@@ -232,7 +189,9 @@ class ResultCache:
         changed = [now for known, now in pairs if now is not None and now is not known]
         if changed and not self._is_used_alike(job, source, record, changed, present):
             return None
-        reader = ReportReader(source, record["sources"], places.read, self._text, self._library)
+        reader = ReportReader(
+            source, record["sources"], places.read, self._files.text, store.library
+        )
         result = FileResult(
             job=job,
             source=source,
@@ -253,26 +212,8 @@ class ResultCache:
             digests = (each.digest for each in result.dependencies or ())
             entries = zip(record["dependencies"], digests, strict=True)
             new = [[asked, found, known, detail] for (asked, found, _, detail), known in entries]
-            self._put(self._key(self._kinds[0], job, places, text), {**record, "dependencies": new})
+            store.put(self._key(self._kinds[0], job, places, text), {**record, "dependencies": new})
         return result
-
-    def _present(self, known: Dependency) -> Dependency | None:
-        """Return a dependency as it is now; `None` if imports would find something else."""
-        if not known.found:
-            return known  # no file can have such a name
-        if self._real_path(known.asked) != known.found:
-            return None
-        if known.digest is None:
-            return None if os.path.exists(known.asked) else known
-        text = self._text(known.asked)
-        if text is None:
-            return None
-        if known.asked not in self._digests:
-            self._digests[known.asked] = digest(text)
-        now = self._digests[known.asked]
-        if now == known.digest:
-            return known
-        return None if known.detail is Detail.TEXT else replace(known, digest=now)
 
     def _is_used_alike(
         self,
@@ -287,12 +228,9 @@ class ResultCache:
 
         if not record["is_complete"] or not all(self._is_clean(job, each) for each in changed):
             return False
-        files = used_files((each for each in present if each is not None), self._decoded)
+        files = used_files((each for each in present if each is not None), self._files.decoded)
         uses: str = record["uses"]
         return used_digest(source.text, files, job.options.dialect) == uses
-
-    def _decoded(self, place: str) -> str:
-        return (self._text(place) or b"").decode()
 
     def _is_clean(self, job: Job, changed: Dependency) -> bool:
         """Whether there is nothing to report on a library by itself; on a source, no errors.
@@ -326,33 +264,6 @@ class ResultCache:
             options = job.options_of(Path(place), self._configs)
             self._options[key] = options, places.options(options)
         return self._options[key]
-
-    def _library(self, key: str) -> str:
-        data = read_own(self._place("library", key))
-        if data is None or digest(data) != key:
-            raise ValueError(key)
-        return data.decode()
-
-    def _text(self, path: str) -> bytes | None:
-        """Return the text of a file without its byte order mark; every file is read once."""
-        if path not in self._texts:
-            try:
-                is_file = os.path.isfile(path)
-                data = Path(path).read_bytes() if is_file else None
-            except OSError:
-                data = None
-            self._texts[path] = data.removeprefix(BYTE_ORDER_MARK) if data is not None else None
-        return self._texts[path]
-
-    def _real_path(self, path: str) -> str:
-        """Return an absolute path with links followed; every folder is looked at once."""
-        if path not in self._real:
-            folder, name = os.path.split(path)
-            is_plain = name and not os.path.islink(path)
-            self._real[path] = (
-                os.path.join(self._real_path(folder), name) if is_plain else os.path.realpath(path)
-            )
-        return self._real[path]
 
 
 def _messages(result: FileResult) -> Iterator[str]:
