@@ -19,6 +19,7 @@ from osc2tx.importing.batch import Batch
 from osc2tx.importing.distributions import Distribution
 from osc2tx.importing.document import Folders, Refused
 from osc2tx.importing.importer import Imported
+from osc2tx.importing.libraries import COMMON, Library
 from osc2tx.importing.parameters import Parameter
 from osc2tx.importing.report import ImportReport, Measured
 from osc2tx.module_loading import scenarios_of_module
@@ -102,9 +103,9 @@ def import_(
 ) -> Exit:
     """Make scenarios of OpenSCENARIO XML documents; folders are searched for .xosc files.
 
-    Each document becomes NAME.osc, with a report of exactness, NAME.import.json; each catalog that
-    is used becomes a library file. `-` is standard input. An existing scenario or library with
-    another text is only replaced with --force.
+    Each document becomes NAME.osc, with a report of exactness, NAME.import.json; what it takes from
+    catalogs is in common.osc, which all scenarios share. `-` is standard input. An existing
+    scenario or library with another text is only replaced with --force.
 
     The exit code is 0 if all is exact, 3 if not (0 with --allow-approx), 4 if a document cannot be
     read.
@@ -155,10 +156,10 @@ def import_all(
             text = imported.text
             results.append(Result(found.source, imported, text, (), found.distribution))
     out.mkdir(parents=True, exist_ok=True)
-    files = {each.name: each.text for each in batch.libraries.values()}
-    files |= {each.name: each.text for each in batch.bases}
-    paths = {out / f"{name}.osc": text for name, text in files.items()}
-    kept = [path for path, text in paths.items() if not _put(path, text, force=force)]
+    kept = [] if _put_library(batch.library, out, force=force) else [out]
+    for base in batch.bases:
+        if not _put(path := out / f"{base.name}.osc", base.text, force=force):
+            kept.append(path)
     for number, result in enumerate(results):  # each beside what it imports
         results[number] = each = _checked(result, out)
         path = out / f"{each.imported.name}.osc"
@@ -168,6 +169,16 @@ def import_all(
             kept.append(path)
     write_settings([(each.imported, each.distribution) for each in results], out)
     return results, refused + len(kept)
+
+
+def _put_library(library: Library, out: Path, *, force: bool) -> bool:
+    """Write the library with what its file has of other documents; return whether it has all."""
+    if not library.lines:
+        return True
+    path = out / f"{COMMON}.osc"
+    before = path.read_text(encoding="utf-8") if path.is_file() else library.text
+    beside = library.beside(before)
+    return _put(path, beside or library.text, force=force or beside is not None)
 
 
 def _put(path: Path, text: str, *, force: bool) -> bool:

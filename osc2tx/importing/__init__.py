@@ -16,5 +16,6 @@
 
 `importer` runs them on one file, `distributions` turns values for runs (`value_files`) into
 settings of campaigns. `batch` imports several files: scenarios with values inherit the one of their
-document, those of a folder what they share (`families`).
+document, those of a folder what they share (`families`); what they take from catalogs is in their
+library file (`libraries`).
 """

@@ -14,7 +14,7 @@ from osc2tx.importing.distributions import NOTHING, Distribution, Open, merged
 from osc2tx.importing.document import Folders, Refused
 from osc2tx.importing.families import families
 from osc2tx.importing.importer import Imported
-from osc2tx.importing.libraries import Libraries
+from osc2tx.importing.libraries import COMMON, Library
 from osc2tx.importing.names import snake
 from osc2tx.importing.program import Declared, Program
 from osc2tx.importing.reading import import_file, open_in
@@ -42,15 +42,15 @@ class Batch:
 
     Attributes:
         folders: Where maps and catalogs are.
-        libraries: The library files that the scenarios need.
+        library: What the scenarios share.
         bases: Scenarios that others inherit, which have no documents.
     """
 
     folders: Folders
-    libraries: Libraries = field(default_factory=dict)
+    library: Library = field(default_factory=Library)
     bases: list[Program] = field(default_factory=list)
     _names: dict[Path | None, str] = field(default_factory=dict)
-    _taken: set[str] = field(default_factory=set)
+    _taken: set[str] = field(default_factory=lambda: {COMMON})
     _templates: dict[Path, Path] = field(default_factory=dict)
     _open: dict[Path, dict[str, Open]] = field(default_factory=dict)
     _alike: dict[Path, list[Imported]] = field(default_factory=dict)
@@ -85,8 +85,7 @@ class Batch:
             for each in alone.values()
             if each.source is not None and isinstance(each.imported, Imported)
         ]
-        libraries = {each.name for each in self.libraries.values()}
-        for base, heirs in families(programs, libraries.union(alone)):
+        for base, heirs in families(programs, {COMMON, *alone}):
             self.bases.append(base)
             for name, program in heirs.items():
                 heir = alone[name]
@@ -101,6 +100,7 @@ class Batch:
             while snake(said) in self._taken:
                 said += "_2"
             self._taken.add(snake(said))
+            self.library.scenarios.add(snake(said))
             self._names[key] = said
         return self._names[key]
 
@@ -144,7 +144,7 @@ class Batch:
         kept = [said for each in alike[:1] for said, p in each.parameters.items() if not p.is_used]
         name = self._name(source)
         try:
-            found = import_file(source, name, self.libraries, self.folders, varied, kept)
+            found = import_file(source, name, self.library, self.folders, varied, kept)
         except Refused as error:
             return Found(source, error)
         if found is None:

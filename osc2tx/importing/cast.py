@@ -145,6 +145,7 @@ class Cast:
         self.actors: dict[str, Actor] = {}
         self.members: dict[str, Declared] = {}
         self.tows: dict[str, tuple[str, Node]] = {}
+        self._own: dict[str, Node] = {}
         self._document, self._values, self._ledger = document, values, ledger
         self._names, self._shared = names, shared
 
@@ -162,6 +163,7 @@ class Cast:
         for child in node.children(*KINDS):
             kind, constraints = facts(child, self._document)
             self.members[said] = Declared(name, kind, [f"it.{each}" for each in constraints])
+            self._own[said] = child
             self.actors[said] = Actor(name, _moving(kind), bool(controllers))
             self._note_trailers(child, name)
             return
@@ -206,6 +208,16 @@ class Cast:
                     self.tows[self._values.text(part, "entityRef")] = (name, part)
                 else:
                     part.leave_out("a trailer that is no entity of the scenario")
+
+    def share(self) -> None:
+        """Take the types of entities that are in no catalog from the library, if there is one."""
+        for said, node in self._own.items() if self._shared.is_used else ():
+            member = self.members[said]
+            body = keeps([each.removeprefix("it.") for each in member.constraints])
+            if body:
+                kind = self.actors[said].kind
+                known = self._shared.own_type(node.text("name") or said, kind, member.type, body)
+                self.members[said] = Declared(member.name, known.name)
 
     def couplings(self) -> list[Declared]:
         """Return which vehicles tow which trailers from the start on."""

@@ -11,6 +11,7 @@ from osc2tx.importing.dimensions import TYPES
 from osc2tx.importing.distributions import Open, meets
 from osc2tx.importing.document import Document
 from osc2tx.importing.expressions import Untyped
+from osc2tx.importing.libraries import Shared
 from osc2tx.importing.parameters import Parameter
 from osc2tx.importing.program import ROAD, Declared
 from osc2tx.importing.report import ImportReport
@@ -38,6 +39,7 @@ class Declarations:
         report: ImportReport,
         open_: Mapping[str, Open],
         comments_of: Callable[[Element], list[str]],
+        shared: Shared,
     ) -> None:
         """Take the document.
 
@@ -48,7 +50,9 @@ class Declarations:
             report: Takes what is not said.
             open_: What its parameters may be in runs.
             comments_of: Gives the comments of an element.
+            shared: The library, which has the map as well if the scenario needs it.
         """
+        self._shared = shared
         self._document, self._root, self._values = document, root, values
         self._report, self._open, self._comments_of = report, open_, comments_of
 
@@ -67,6 +71,8 @@ class Declarations:
                 name = Path(said.replace("\\", "/")).name if found is None else found.name
                 if found is None and said:
                     each.approximate(f"the map {said} is not found: places on it were not checked")
+                if name and self._shared.is_used:
+                    return [Declared(ROAD, self._shared.map_of(name))]
                 if name:
                     return [Declared(ROAD, "map", [f'it.map_file == "{name}"'])]
             elif each.tag == "SceneGraphFile":

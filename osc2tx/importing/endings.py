@@ -142,6 +142,13 @@ def placed_beside(statement: Statement) -> set[str]:
     return found
 
 
+def single(waits: Waits) -> When | None:
+    """Return the only condition that is waited for; `None`: there are others, or notes."""
+    if len(waits) != 1 or waits[0].label or waits[0].is_qualified or waits[0].comments:
+        return None
+    return waits[0].does if isinstance(waits[0].does, When) else None
+
+
 def first_of(endings: Sequence[Waits]) -> Waits:
     """Return what waits for the first of several ends; what they begin with alike stands once."""
     if any(not each for each in endings):

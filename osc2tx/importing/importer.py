@@ -18,7 +18,7 @@ from osc2tx.importing.document import NOWHERE, Document, Folders, Refused
 from osc2tx.importing.endings import placed_beside
 from osc2tx.importing.expressions import Untyped
 from osc2tx.importing.headers import header_of
-from osc2tx.importing.libraries import Libraries, Shared
+from osc2tx.importing.libraries import COMMON, Library, Shared
 from osc2tx.importing.marks import Marks
 from osc2tx.importing.names import Names
 from osc2tx.importing.parameters import Parameter
@@ -80,7 +80,7 @@ class Imported:
 def import_document(
     data: bytes,
     source: str,
-    libraries: Libraries,
+    library: Library,
     *,
     path: Path | None = None,
     name: str = "",
@@ -93,7 +93,7 @@ def import_document(
     Args:
         data: The document.
         source: What to call it in the report.
-        libraries: The library files so far; gains those that it needs.
+        library: What scenarios share so far; gains what it needs.
         path: Its file, from which relative paths start.
         name: The name of the scenario; else that of the file.
         folders: Where maps and catalogs are.
@@ -119,7 +119,7 @@ def import_document(
     document = Document(root, path, comments, folders)
     said = name or (path.stem if path else "scenario")
     try:
-        return _Import(document, source, libraries, said, distribution, varied).run()
+        return _Import(document, source, library, said, distribution, varied).run()
     except Unresolved as error:
         raise Refused(error.reason, error.place or root.place) from None
     except OverflowError:
@@ -135,7 +135,7 @@ class _Import:
         self,
         document: Document,
         source: str,
-        libraries: Libraries,
+        library: Library,
         name: str,
         distribution: Distribution | None,
         varied: Mapping[str, Open],
@@ -148,8 +148,9 @@ class _Import:
         self._names = Names(self._report, (ROAD, ENVIRONMENT, CONTROLLER))
         self._scenario = self._names.new(name, kind="scenario")
         self._report.scenario = self._scenario
+        library.scenarios.add(self._scenario)
         self._values = Values(document, self._names, self._open or varied)
-        self._shared = Shared(libraries)
+        self._shared = Shared(library)
         self._cast = Cast(document, self._values, self._ledger, self._names, self._shared)
         self._marks = Marks(document, self._names, self._report)
         self._told: set[str] = set()
@@ -170,6 +171,7 @@ class _Import:
                     self._cast.add(each)
                 except (Unresolved, ValueError) as error:
                     each.leave_out(getattr(error, "reason", str(error)))
+        self._cast.share()
         actors = self._cast.actors
         kinds = {said: actor.name for said, actor in actors.items()}
         places = Places(self._document, self._values, self._names, kinds)
@@ -198,11 +200,11 @@ class _Import:
             lambda base: self._names.new("", kind="event", base=base),
             {actor.name: actor for actor in actors.values()},
         )
-        whole = Whole(self._document, self._cast, self._names, self._report)
+        whole = Whole(self._document, self._cast, self._names, self._report, self._shared)
         program.body = whole.behavior(structure, structure.branches(), inits, board.end)
         self._find_used(program, places, structure)
         self._declare(program, places, surroundings, lights, structure)
-        program.imports = sorted(self._shared.imports)
+        program.imports = [COMMON] if self._shared.is_used else []
         self._report.under_test = [each.name for each in actors.values() if each.is_under_test]
         for step in structure.events:
             if step.effects and structure.references[step.label] < 1:
@@ -237,7 +239,7 @@ class _Import:
         found = []
         for node in element.walk():
             for text in self._comments.pop(node.place, []):
-                if len(text) > LONG and text in self._told:
+                if text in found or (len(text) > LONG and text in self._told):
                     self._leave(text, "it repeats another one")
                 else:
                     found.append(text)
@@ -273,7 +275,13 @@ class _Import:
     ) -> None:
         """Write what the behavior of a program reads."""
         declared = Declarations(
-            self._document, self._root, self._values, self._report, self._open, self._comments_of
+            self._document,
+            self._root,
+            self._values,
+            self._report,
+            self._open,
+            self._comments_of,
+            self._shared,
         )
         members = declared.map()
         if surroundings.needs_environment:

@@ -1,20 +1,38 @@
-"""Library files, one for each catalog: types of its entities, and its environments."""
+"""The library file of imported scenarios: types of what stands in other files, and what repeats.
+
+These are the entities and environments of catalogs, the maps, and the start of an actor. A
+scenario that takes nothing from a catalog stays a file of its own.
+"""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Sequence
 from dataclasses import field
 from pathlib import Path
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 from osc2tx.importing.names import Names, actions_of
 from osc2tx.importing.report import ImportReport
 from osc2tx.importing.statements import INDENT
 from osc2tx_shared.classes import dataclass
 
+COMMON = "common"
+"""The name of the library file, and of its namespace."""
+HEAD = ("import osc.standard.all", f"namespace {COMMON} use std, stdtypes", "", "export *")
+BEGIN, CRUISE = "begin", "cruise"
+"""What puts an actor at a point with a speed, and what keeps it at this speed."""
+_AT_ONCE = ("assign_position(odr_point: at)", "assign_speed(speed)")
+STARTS = {BEGIN: _AT_ONCE, CRUISE: (*_AT_ONCE, "keep_speed()")}
+_NAME = re.compile(r"(?:actor|scenario) (?:\w+\.)?(\w+)")
+
+
+Key: TypeAlias = tuple[Path | str, ...]
+"""What stands for an entry: its catalog and its name there, or its declaration."""
+
 
 class Entry(NamedTuple):
-    """What a library has for an entry of its catalog.
+    """What the library has for an entry of a catalog.
 
     Attributes:
         name: Its name.
@@ -27,51 +45,54 @@ class Entry(NamedTuple):
 
 @dataclass
 class Library:
-    """What a library file declares.
+    """What the library file declares.
 
     Attributes:
-        name: Name of its file and of its namespace.
         lines: Lines by the names of what it declares.
-        entries: What it has by the names in the catalog; of environments also by what they do,
-            which the parameters of an entry change.
+        scenarios: Names of the scenarios, which its declarations do not have.
+        entries: What it has by catalogs and the names in them; of environments also by what they
+            do, which the parameters of an entry change.
     """
 
-    name: str
-    lines: dict[str, list[str]] = field(default_factory=dict)
-    entries: dict[tuple[str, ...], Entry] = field(default_factory=dict)
+    lines: dict[str, Sequence[str]] = field(default_factory=dict)
+    scenarios: set[str] = field(default_factory=set)
+    entries: dict[Key, Entry] = field(default_factory=dict)
 
     @property
     def text(self) -> str:
         """The text of the file."""
-        lines = [
-            "import osc.standard.all",
-            f"namespace {self.name} use std, stdtypes",
-            "",
-            f"export {', '.join(self.lines)}",
-        ]
-        for text in self.lines.values():
-            lines += ["", *text]
-        return "\n".join(lines) + "\n"
+        parts = (line for part in self.lines.values() for line in ("", *part))
+        return "\n".join((*HEAD, *parts, ""))
 
+    def beside(self, text: str) -> str | None:
+        """Return the text of the file with what it declares already; `None`: they differ.
 
-Libraries = dict[Path, Library]
-"""Library files by the catalogs that they are made from."""
+        Args:
+            text: The text of the file so far, of other documents.
+        """
+        head, *parts = re.split(r"\n\n(?=[as])", text.removesuffix("\n"))
+        told = {found[1]: part for part in parts if (found := _NAME.match(part))}
+        own = {name: "\n".join(lines) for name, lines in self.lines.items()}
+        is_alike = all(told.get(name, part) == part for name, part in own.items())
+        if head != "\n".join(HEAD) or len(told) != len(parts) or not is_alike:
+            return None
+        return "\n\n".join((head, *(told | own).values())) + "\n"
 
 
 class Shared:
-    """What library files have for a document.
+    """What the library has for a document.
 
     Attributes:
-        imports: The libraries that the scenario needs.
+        is_used: Whether the scenario needs it.
     """
 
-    def __init__(self, libraries: Libraries) -> None:
-        self._libraries = libraries
-        self.imports: set[str] = set()
+    def __init__(self, library: Library) -> None:
+        self._library = library
+        self.is_used = False
 
     def type_of(self, path: Path, said: str) -> Entry | None:
         """Return the type of actors that there is for an entry of a catalog."""
-        return self._known(path, (said,))
+        return self._known((path, said))
 
     def new_type(self, path: Path, said: str, kind: str, base: str, body: Sequence[str]) -> Entry:
         """Return a new type of actors.
@@ -83,9 +104,19 @@ class Shared:
             base: What it inherits.
             body: What it declares.
         """
-        name = self._new(path, said, "entity type")
-        lines = [f"actor {name} inherits {base}:", *_indented(body, 1)]
-        return self._add(path, (said,), Entry(name, kind), lines)
+        return self._typed((path, said), said, kind, base, body)
+
+    def own_type(self, said: str, kind: str, base: str, body: Sequence[str]) -> Entry:
+        """Return the type of an entity that is in no catalog; alike ones of a name share it.
+
+        Args:
+            said: What it is called.
+            kind: The type whose actions it has.
+            base: What it inherits.
+            body: What it declares.
+        """
+        key: Key = (said, base, *body)
+        return self._known(key) or self._typed(key, said, kind, base, body)
 
     def behavior(self, path: Path, said: str, actor: str, calls: Sequence[str]) -> Entry:
         """Return what an actor does.
@@ -96,38 +127,53 @@ class Shared:
             actor: The type of the actor.
             calls: What it does, one after the other.
         """
-        key = (said, *calls)
-        if known := self._known(path, key):
+        key: Key = (path, said, *calls)
+        if known := self._known(key):
             return known
-        name = self._new(path, said, actor, actions_of(actor))
+        name = self._new(said, actor, actions_of(actor))
         lines = [f"scenario {actor}.{name}:", f"{INDENT}do serial:", *_indented(calls, 2)]
-        return self._add(path, key, Entry(name, actor), lines)
+        return self._add(key, Entry(name, actor), lines)
 
-    def _known(self, path: Path, key: tuple[str, ...]) -> Entry | None:
-        library = self._libraries.get(path)
-        found = None if library is None else library.entries.get(key)
-        if library is not None and found is not None:
-            self.imports.add(library.name)
+    def map_of(self, file: str) -> str:
+        """Return the type of a map by the name of its file."""
+        known = self._known((file,))
+        if known is None:
+            name = self._new(f"{Path(file).stem}_map", "type")
+            lines = [f"actor {name} inherits map:", f'{INDENT}keep(map_file == "{file}")']
+            known = self._add((file,), Entry(name, "map"), lines)
+        return known.name
+
+    def add_start(self, name: str) -> None:
+        """Add a way in which actors begin."""
+        self._library.lines[name] = (
+            f"scenario movable_object.{name}:",
+            *_indented(("at: odr_point", "speed: speed"), 1),
+            "",
+            f"{INDENT}do serial:",
+            *_indented(STARTS[name], 2),
+        )
+
+    def _typed(self, key: Key, said: str, kind: str, base: str, body: Sequence[str]) -> Entry:
+        name = self._new(said, "entity type")
+        lines = [f"actor {name} inherits {base}:", *_indented(body, 1)]
+        return self._add(key, Entry(name, kind), lines)
+
+    def _known(self, key: Key) -> Entry | None:
+        found = self._library.entries.get(key)
+        self.is_used |= found is not None
         return found
 
-    def _new(self, path: Path, said: str, word: str, taken: Iterable[str] = ()) -> str:
-        """Return the name for a new entry of the library of a catalog, which is there then."""
-        if path not in self._libraries:
-            others = {each.name for each in self._libraries.values()}
-            self._libraries[path] = Library(_named(path.stem, "library", others))
-        declared = {name for each in self._libraries.values() for name in each.lines}
-        return _named(said, word, declared.union(taken))
+    def _new(self, said: str, word: str, taken: Iterable[str] = ()) -> str:
+        """Return the name for a new entry."""
+        library = self._library
+        taken = {*STARTS, *library.lines, *library.scenarios, *taken}
+        return Names(ImportReport(""), taken).new(said, kind=word)
 
-    def _add(self, path: Path, key: tuple[str, ...], entry: Entry, lines: list[str]) -> Entry:
-        library = self._libraries[path]
-        library.lines[entry.name] = lines
-        library.entries[key] = entry
-        self.imports.add(library.name)
+    def _add(self, key: Key, entry: Entry, lines: Sequence[str]) -> Entry:
+        self._library.lines[entry.name] = lines
+        self._library.entries[key] = entry
+        self.is_used = True
         return entry
-
-
-def _named(said: str, kind: str, taken: Iterable[str]) -> str:
-    return Names(ImportReport(""), taken).new(said, kind=kind)
 
 
 def _indented(lines: Sequence[str], indent: int) -> list[str]:

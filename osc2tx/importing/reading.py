@@ -9,7 +9,7 @@ from pathlib import Path
 from osc2tx.importing.distributions import NOTHING, Distribution, Open
 from osc2tx.importing.document import Folders, Refused
 from osc2tx.importing.importer import Imported, import_document
-from osc2tx.importing.libraries import Libraries
+from osc2tx.importing.libraries import Library
 from osc2tx.importing.reach import Reach
 from osc2tx.importing.report import ImportReport
 from osc2tx.importing.value_files import read_distribution
@@ -48,7 +48,7 @@ def scenario_of(source: Path | None, values: Distribution, folders: Folders) -> 
 def import_file(
     source: Path | None,
     name: str,
-    libraries: Libraries,
+    library: Library,
     folders: Folders,
     varied: Mapping[str, Open] = NOTHING,
     kept: Collection[str] = (),
@@ -58,7 +58,7 @@ def import_file(
     Args:
         source: The file; `None` for standard input.
         name: The name of the scenario.
-        libraries: The library files so far; gains those that it needs.
+        library: What scenarios share so far; gains what it needs.
         folders: Where maps and catalogs are.
         varied: What scenarios that inherit it leave open.
         kept: Parameters that keep the values of the scenario in the first run of distributions.
@@ -73,9 +73,9 @@ def import_file(
         return None
     said = "-" if source is None else source.name
     if "ParameterValueDistribution" in tags:
-        return _with_values(root, source, said, name, libraries, folders, kept)
+        return _with_values(root, source, said, name, library, folders, kept)
     found = import_document(
-        data, said, libraries, path=source, name=name, folders=folders, varied=varied
+        data, said, library, path=source, name=name, folders=folders, varied=varied
     )
     return found, None
 
@@ -85,7 +85,7 @@ def _with_values(
     source: Path | None,
     said: str,
     name: str,
-    libraries: Libraries,
+    library: Library,
     folders: Folders,
     kept: Collection[str],
 ) -> tuple[Imported, Distribution]:
@@ -98,7 +98,7 @@ def _with_values(
         found = import_document(
             template,
             path.name,
-            libraries,
+            library,
             path=path,
             name=name,
             folders=folders,

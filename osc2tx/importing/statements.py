@@ -291,6 +291,8 @@ def _seconds_of(statement: Statement) -> float | None:
         said = does.time
     elif isinstance(does, Call):
         said = does.get("duration")
+        if does.action == "replay_trajectory" and not statement.is_qualified:
+            return statement.length
     found = _SECONDS.fullmatch(said or "")
     if statement.is_qualified or found is None:
         return statement.length if statement.length == 0.0 else None

@@ -20,10 +20,13 @@ from osc2tx.importing.endings import (
     is_open,
     is_over,
     may_end,
+    single,
     without_events,
 )
+from osc2tx.importing.libraries import STARTS, Shared
 from osc2tx.importing.names import Names
 from osc2tx.importing.report import ImportReport
+from osc2tx.importing.shared_starts import with_starts
 from osc2tx.importing.starts import Starts
 from osc2tx.importing.statements import (
     Statement,
@@ -47,8 +50,11 @@ LONGEST = "60s"
 class Whole:
     """Composes the behavior."""
 
-    def __init__(self, document: Document, cast: Cast, names: Names, report: ImportReport) -> None:
+    def __init__(
+        self, document: Document, cast: Cast, names: Names, report: ImportReport, shared: Shared
+    ) -> None:
         self._document, self._cast, self._names, self._report = document, cast, names, report
+        self._shared = shared
 
     def behavior(
         self, structure: Structure, branches: Sequence[Branch], inits: Starts, end: Trigger
@@ -60,8 +66,13 @@ class Whole:
         begun = [*members.begin(), *inits.ways()]
         course = self._composed(structure, begun, members, endings)
         kept = {label for label, count in structure.references.items() if count > 0}
-        told = without_labels(composed("serial", [*members.leading, *course]), kept)
-        return worded(told)
+        told = without_labels(_behind(members.leading, course), kept)
+        told = worded(told)
+        if self._shared.is_used:
+            told = with_starts(told)
+            for name in sorted({each.action for each in told.calls} & STARTS.keys()):
+                self._shared.add_start(name)
+        return told
 
     def _endings(self, structure: Structure, end: Trigger) -> list[Waits]:
         """Return what ends the scenario, each way of it as what is waited for."""
@@ -100,30 +111,55 @@ class Whole:
             content = [*members.content(branch), *held_for(members.going(branch), rest)]
             lasting[id(branch)] = composed("serial", content)
             return [composed("parallel", [*begun, *filter(None, lasting.values())])]
-        if None not in lasting.values() and all(is_open(e) or may_end(e, end) for e in begun):
+        are_held = all(is_open(each) or may_end(each, end) for each in begun)
+        if are_held and None not in lasting.values():
             side_by_side = [*begun, *filter(None, lasting.values())]
             if all(may_end(each, end) for each in side_by_side):
                 return [composed("parallel", [*side_by_side, composed("serial", waits)])]
-            return [self._until(structure, side_by_side, endings)]
-        done = [members.done(each) for each in branches]
-        return [self._until(structure, [*begun, *filter(None, done)], endings)]
+            ends = [each for each in map(single, endings) if each is not None]
+            if all(map(is_open, side_by_side)) and len(ends) == len(endings):
+                return [_until(side_by_side, ends)]
+            found = (members.held(each) or lasting[id(each)] for each in branches)
+        else:
+            found = (members.done(each) for each in branches)
+        done = [each for each in found if each is not None]
+        return [self._up_to(structure, [*begun, *done], endings)]
 
-    def _until(
-        self, structure: Structure, members: list[Statement], endings: Sequence[Waits]
+    def _up_to(
+        self, structure: Structure, members: Sequence[Statement], endings: Sequence[Waits]
     ) -> Statement:
-        """Return members side by side, some of which last longer or shorter than the scenario."""
-        end = composed("serial", first_of(endings))
-        if isinstance(end.does, When) and all(map(is_open, members)):
-            whole = composed("parallel", members)
-            if not whole.is_composed:
-                return ended(whole, end.does)
-            return replace(whole, until=[end.does], length=None)
-        if isinstance(end.does, When):
-            return Statement("parallel", members=[*members, end], until=[end.does])
+        """Return members side by side that may be over before the end, which is waited for."""
+        plain = [does for each in endings if (does := single(each)) is not None]
+        chains = [each for each in endings if single(each) is None]
+        if not chains:
+            timed = next((each for each in plain if each.time), plain[0])
+            return _until([*members, Statement(timed)], plain)
+        if len(chains) > 1:
+            plain, chains = [], list(endings)
+        end = composed("serial", first_of(chains))
         end.label = self._names.new("", kind="event", base="finished")
         structure.references[end.label] += 1
-        until = happens(f"{end.label}.end")
-        return Statement("parallel", members=[*members, end], until=[until])
+        return _until([*members, end], [happens(f"{end.label}.end"), *plain])
+
+
+def _behind(leading: Sequence[Statement], course: Sequence[Statement]) -> Statement:
+    """Return what happens behind what takes no time; what ends it ends all."""
+    *before, last = course
+    is_plain = not (before or last.label or last.modifiers or last.comments or last.duration)
+    if leading and is_plain and last.does == "serial" and all(e.length == 0.0 for e in leading):
+        members = [*leading, *last.members]
+        return Statement("serial", members=members, until=last.until, length=last.length)
+    return composed("serial", [*leading, *course])
+
+
+def _until(members: Sequence[Statement], ends: Sequence[When]) -> Statement:
+    """Return members side by side up to the first of some ends."""
+    whole = composed("parallel", members)
+    if len(ends) == 1 and not whole.is_composed:
+        return ended(whole, ends[0])
+    if whole.label or whole.is_qualified:
+        whole = Statement("parallel", members=[whole])
+    return replace(whole, until=list(ends), length=None)
 
 
 class _Members:
@@ -242,6 +278,14 @@ class _Members:
         if content and content[-1].length != math.inf and last:
             content.append(composed("parallel", last))
         return composed("serial", content) if content else None
+
+    def held(self, branch: Branch) -> Statement | None:
+        """Return a branch to its end, behind which its actors hold their speeds by themselves.
+
+        `None`: it is empty, or they would not do so.
+        """
+        is_free = all(self._actors[said].is_free for said in self._in(branch))
+        return self.done(branch) if is_free else None
 
     def lasting(self, branch: Branch, up_to: float | None) -> Statement | None:
         """Return a branch that is over before the end or goes on behind its own; `None`: neither.

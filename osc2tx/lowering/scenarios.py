@@ -85,6 +85,7 @@ def lower(
             [
                 *(p for b in model.bindings.values() for p, _ in b.arguments),
                 *_described_parameters(analysis),
+                *_left_to_invocations(model),
             ]
         ),
         computed=frozenset(
@@ -224,6 +225,15 @@ def _described_parameters(analysis: ConstraintAnalysis) -> Iterator[sym.Symbol]:
             match key:
                 case (ast.Invocation(), sym.FieldSymbol(type=types.StructType()) as field, _, *_):
                     yield field
+
+
+def _left_to_invocations(model: SemanticModel) -> Iterator[sym.Symbol]:
+    """Yield the structs of scenarios of actors that only an invocation, maybe elsewhere, gives."""
+    for scenario in model.scenarios:
+        for member in scenario.members.values() if scenario.actor is not None else ():
+            match member:
+                case sym.FieldSymbol(type=types.StructType(), default=None, constraints=()):
+                    yield member
 
 
 def _head_comments(file: ast.File) -> tuple[str, ...]:

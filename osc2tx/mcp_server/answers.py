@@ -24,7 +24,7 @@ from osc2tx.diagnostics.report import make_report
 from osc2tx.diagnostics.suggestions import did_you_mean
 from osc2tx.importing.document import Refused
 from osc2tx.importing.importer import import_document
-from osc2tx.importing.libraries import Libraries
+from osc2tx.importing.libraries import Library
 from osc2tx.module_loading import scenarios_of_module
 from osc2tx.reference import as_text, entries, find, find_topics, topic_as_text, topics
 from osc2tx.version import __version__
@@ -108,9 +108,8 @@ class Answers:
 
     def import_xml(self, document: str, name: str) -> Answer:
         """Return the scenario of an OpenSCENARIO XML document, with a report on what it lacks."""
-        libraries: Libraries = {}
         try:
-            found = import_document(document.encode(), f"{name}.xosc", libraries, name=name)
+            found = import_document(document.encode(), f"{name}.xosc", Library(), name=name)
         except Refused as error:
             raise CannotAnswer(f"{error.place or name}: {error.reason}") from None
         file = f"{found.name}.osc"

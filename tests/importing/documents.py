@@ -4,6 +4,7 @@ from pathlib import Path
 
 from osc2tx.compilation.driver import Compilation
 from osc2tx.importing.importer import Imported, import_document
+from osc2tx.importing.libraries import Library
 from osc2tx.options import CompileOptions
 
 CAR = """<Vehicle name="car" vehicleCategory="car">
@@ -93,7 +94,7 @@ def document(events: str, end: str = "", parameters: str = "", ego_speed: str = 
 
 def imported(text: str) -> Imported:
     """Return what becomes of a document."""
-    return import_document(text.encode(), "test.xosc", {}, name="two_cars")
+    return import_document(text.encode(), "test.xosc", Library(), name="two_cars")
 
 
 def faults(found: Imported) -> list[str]:

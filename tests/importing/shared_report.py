@@ -14,6 +14,7 @@ import tempfile
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from pathlib import Path
+from statistics import median
 from typing import NamedTuple
 
 from osc2tx.cli.import_ import Result, import_all
@@ -21,6 +22,9 @@ from osc2tx.importing.document import Folders
 
 TOWNS = "carla-2020"
 """The folder of the maps that documents of CARLA name without a path."""
+
+MOST_LINES = 1 / 6
+"""Lines of a scenario for one of its document, in review."""
 
 SAME, OFF = "same places and end", "other places or another end"
 
@@ -101,19 +105,26 @@ def _without_numbers(reason: str) -> str:
 
 def summary(found: Sequence[Row]) -> str:
     """Return the table."""
-    lines = ["| documents | all | check | compared | the same |", "|---|---|---|---|---|"]
+    lines = [
+        "| documents | all | check | compared | the same | lines for one of XML, median |",
+        "|---|---|---|---|---|---|",
+    ]
     families = sorted({row.file.split("/")[0] for row in found})
     for family in (*families, ""):
         of = [row for row in found if row.file.startswith(family)]
         compared = sum(row.outcome in (SAME, OFF) for row in of)
         same = sum(row.outcome == SAME for row in of)
         checked = sum(row.is_checked for row in of)
-        lines.append(f"| {family or 'all'} | {len(of)} | {checked} | {compared} | {same} |")
-    counts = Counter(row.outcome for row in found)
-    lines += ["", *(f"{count:4} {outcome}" for outcome, count in counts.most_common())]
+        length = median(row.lines / row.xml_lines for row in of if row.xml_lines)
+        counts = f"{len(of)} | {checked} | {compared} | {same}"
+        lines.append(f"| {family or 'all'} | {counts} | {length:.3f} |")
+    outcomes = Counter(row.outcome for row in found)
+    lines += ["", *(f"{count:4} {outcome}" for outcome, count in outcomes.most_common())]
     ratio = sum(row.lines for row in found) / max(1, sum(row.xml_lines for row in found))
     overriding = sum(row.is_overriding for row in found)
-    return "\n".join([*lines, "", f"{ratio:.3f} lines for one of XML; {overriding} with override"])
+    short = sum(row.lines <= MOST_LINES * row.xml_lines for row in found)
+    counted = f"{ratio:.3f} lines for one of XML, {short} with a sixth at most"
+    return "\n".join([*lines, "", f"{counted}; {overriding} with override"])
 
 
 def main() -> None:

@@ -11,7 +11,7 @@ from osc2tx.cli.import_settings import write_settings
 from osc2tx.importing.batch import Batch
 from osc2tx.importing.document import Folders, Refused
 from osc2tx.importing.importer import import_document
-from osc2tx.importing.libraries import Libraries
+from osc2tx.importing.libraries import Library
 from tests.importing.documents import (
     CAR,
     after,
@@ -155,12 +155,12 @@ def test_all_of_a_document_with_catalogs_counts(name: str, tmp_path: Path) -> No
 
     def product() -> object:
         (tmp_path / name).write_bytes(ET.tostring(root))
-        libraries: Libraries = {}
+        library = Library()
         try:
-            found = import_document(main.read_bytes(), "main.xosc", libraries, path=main)
+            found = import_document(main.read_bytes(), "main.xosc", library, path=main)
         except Refused as error:
             return error.reason
-        return found.text, found.report.to_json(), [each.text for each in libraries.values()]
+        return found.text, found.report.to_json(), library.text
 
     catalog = root.find("Catalog")
     assert not silent(root if catalog is None else catalog, product)
@@ -169,9 +169,9 @@ def test_all_of_a_document_with_catalogs_counts(name: str, tmp_path: Path) -> No
 def test_an_entry_of_a_catalog_is_reported_once(tmp_path: Path) -> None:
     _files(tmp_path)
     main = tmp_path / "main.xosc"
-    libraries: Libraries = {}
+    library = Library()
     first, second = (
-        import_document(main.read_bytes(), "main.xosc", libraries, path=main) for _ in range(2)
+        import_document(main.read_bytes(), "main.xosc", library, path=main) for _ in range(2)
     )
     assert first.text == second.text
     assert first.report.grade == "exact" == second.report.grade, second.report.findings
@@ -235,7 +235,7 @@ def test_all_of_a_document_with_distributions_counts(values: str, tmp_path: Path
 )
 def test_others_are_refused(text: str, reason: str) -> None:
     with pytest.raises(Refused) as caught:
-        import_document(text.encode(), "bad.xosc", {})
+        import_document(text.encode(), "bad.xosc", Library())
     assert reason in caught.value.reason
     assert caught.value.place is not None
 
@@ -250,7 +250,7 @@ def test_unknown_parts_are_reported_with_their_place() -> None:
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16"])
 def test_encodings(encoding: str) -> None:
     text = document("").replace('<?xml version="1.0" encoding="UTF-8"?>', "").strip()
-    found = import_document(text.encode(encoding), "test.xosc", {}, name="two_cars")
+    found = import_document(text.encode(encoding), "test.xosc", Library(), name="two_cars")
     assert found.text == imported(text).text
 
 

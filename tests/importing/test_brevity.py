@@ -55,7 +55,7 @@ def test_an_event_that_only_the_end_waits_for_is_its_condition() -> None:
 
 
 def test_several_ends_are_a_race() -> None:
-    both = f"{after('Faster')}</ConditionGroup><ConditionGroup>{FAST}"
+    both = f"{after('Faster', '1')}</ConditionGroup><ConditionGroup>{FAST}"
     found = imported(document(event("Faster", change("20", "2"), at_time("1")), end=both))
     assert "one_of:" in found.text
     assert "forever" not in found.text
@@ -188,3 +188,48 @@ def test_comments_of_events_keep_within_their_lines() -> None:
     found = imported(text.replace('<Action name="Faster', f'{comment}<Action name="Faster')).text
     assert all(len(line) <= 100 for line in found.splitlines())
     assert found.count("word") == 40
+
+
+def test_conditions_that_are_ends_are_an_until_each() -> None:
+    """A second condition is an end of its own: nothing has to wait for the first of both."""
+    late = FAST.replace('delay="1.5"', 'delay="0"')
+    both = f"{at_time('12')}</ConditionGroup><ConditionGroup>{late}"
+    found = imported(document(event("Faster", change("20", "2"), at_time("1")), end=both))
+    assert [line for line in lines(found.text) if line.startswith("until")] == [
+        "until elapsed(12s)",
+        "until other.speed > 18mps",
+    ]
+    assert "finished" not in found.text
+    assert faults(found) == []
+    assert apart(found) < 0.1
+
+
+def test_what_ends_a_serial_behind_the_starts_ends_all() -> None:
+    found = imported(document(event("Slower", change("10"), FAST), ego_speed="0"))
+    assert [line for line in found.text.splitlines() if "with:" in line or "until" in line][
+        -2:
+    ] == [
+        "    with:",
+        "        until elapsed(12s)",
+    ]
+    assert found.text.count("serial:") == 1
+    assert faults(found) == []
+    assert apart(found) < 0.1
+
+
+def test_beside_an_end_of_several_waits_actors_hold_their_speeds_by_themselves() -> None:
+    end = after("Faster", "1") + FAST
+    events = event("Faster", change("20", "2"), FAST)
+    straight = document(events, end=end).replace("highway.xodr", "merge.xodr")
+    straight = straight.replace('roadId="1" laneId="-3" s="100"', 'roadId="2" laneId="-2" s="20"')
+    found = imported(straight)
+    assert "until @finished.end" in found.text
+    assert "other.keep_speed" not in found.text
+    assert faults(found) == []
+
+
+def test_a_comment_of_an_event_is_there_once() -> None:
+    text = document(event("Faster", change("20"), at_time("1")))
+    comment = "<!-- as in the protocol -->"
+    twice = text.replace('<Action name="Faster', f'{comment}{comment}<Action name="Faster')
+    assert imported(twice).text.count("as in the protocol") == 1

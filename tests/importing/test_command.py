@@ -118,19 +118,91 @@ def test_a_folder_without_documents_is_refused(tmp_path: Path) -> None:
     assert not (tmp_path / "out").exists()
 
 
+REFERENCE = '<CatalogReference catalogName="cars" entryName="{}"/>'
+LOCATIONS = "<CatalogLocations><VehicleCatalog><Directory path='{}'/></VehicleCatalog>"
+
+
+def with_catalog(folder: Path, names: dict[str, str], entry: str = "car", car: str = CAR) -> None:
+    """Write documents, which name the folder of their catalog in some ways."""
+    catalog = f"<OpenSCENARIO><Catalog name='cars'>{car}</Catalog></OpenSCENARIO>"
+    (folder / "catalogs").mkdir(parents=True)
+    (folder / "more").mkdir()
+    (folder / "catalogs" / "cars.xosc").write_text(catalog, encoding="utf-8")
+    for name, path in names.items():
+        text = document("").replace(CAR, REFERENCE.format(entry))
+        text = text.replace("<CatalogLocations/>", f"{LOCATIONS.format(path)}</CatalogLocations>")
+        (folder / f"{name}.xosc").write_text(text, encoding="utf-8")
+
+
 def test_documents_share_the_library_of_a_catalog_that_they_name_differently(
     tmp_path: Path,
 ) -> None:
-    catalog = f"<OpenSCENARIO><Catalog name='cars'>{CAR}</Catalog></OpenSCENARIO>"
-    (tmp_path / "catalogs").mkdir()
-    (tmp_path / "more").mkdir()
-    (tmp_path / "catalogs" / "cars.xosc").write_text(catalog, encoding="utf-8")
-    reference = '<CatalogReference catalogName="cars" entryName="car"/>'
-    locations = "<CatalogLocations><VehicleCatalog><Directory path='{}'/></VehicleCatalog>"
-    for name, path in (("one", "catalogs"), ("two", "more/../catalogs")):
-        text = document("").replace(CAR, reference)
-        text = text.replace("<CatalogLocations/>", f"{locations.format(path)}</CatalogLocations>")
-        (tmp_path / f"{name}.xosc").write_text(text, encoding="utf-8")
+    with_catalog(tmp_path / "xml", {"one": "catalogs", "two": "more/../catalogs"})
     out = tmp_path / "out"
-    command("import", tmp_path, "-o", out)
-    assert sorted(each.stem for each in out.glob("*.osc")) == ["cars", "one", "two"]
+    command("import", tmp_path / "xml", "-o", out)
+    assert sorted(each.stem for each in out.glob("*.osc")) == ["common", "one", "two"]
+    common = (out / "common.osc").read_text(encoding="utf-8")
+    assert common.count("actor car inherits vehicle:") == 1
+    assert "road: highway_map" in (out / "one.osc").read_text(encoding="utf-8")
+    assert command("fmt", "--check", out).return_value == 0
+
+
+def test_documents_of_another_time_extend_the_library(tmp_path: Path) -> None:
+    with_catalog(tmp_path / "first", {"one": "catalogs"})
+    truck = CAR.replace('name="car"', 'name="truck"')
+    with_catalog(tmp_path / "second", {"two": "catalogs"}, "truck", truck)
+    out = tmp_path / "out"
+    for folder in ("first", "second", "first"):
+        assert command("import", tmp_path / folder, "-o", out).return_value == 0
+    declared = (out / "common.osc").read_text(encoding="utf-8")
+    assert "actor car inherits vehicle:" in declared
+    assert "actor truck inherits vehicle:" in declared
+    assert command("check", out).return_value == 0
+
+
+def test_a_library_with_another_type_of_a_name_is_kept(tmp_path: Path) -> None:
+    with_catalog(tmp_path / "first", {"one": "catalogs"})
+    with_catalog(tmp_path / "second", {"two": "catalogs"}, car=CAR.replace('"5"', '"6"'))
+    out = tmp_path / "out"
+    command("import", tmp_path / "first", "-o", out)
+    before = (out / "common.osc").read_bytes()
+    assert command("import", tmp_path / "second", "-o", out).return_value == 4
+    assert (out / "common.osc").read_bytes() == before
+    assert command("import", tmp_path / "second", "-o", out, "--force").return_value == 0
+    assert b"bounding_box.length == 6m" in (out / "common.osc").read_bytes()
+
+
+def test_a_scenario_of_the_name_of_an_entity_keeps_it(tmp_path: Path) -> None:
+    with_catalog(tmp_path / "xml", {"car": "catalogs", "common": "catalogs"})
+    out = tmp_path / "out"
+    assert command("import", tmp_path / "xml", "-o", out).return_value == 0
+    assert sorted(each.stem for each in out.glob("*.osc")) == ["car", "common", "common_2"]
+    assert "actor car_2 inherits vehicle:" in (out / "common.osc").read_text(encoding="utf-8")
+
+
+def test_with_a_library_a_place_and_a_speed_at_once_are_one_action(tmp_path: Path) -> None:
+    with_catalog(tmp_path / "xml", {"one": "catalogs"})
+    out = tmp_path / "out"
+    assert command("import", tmp_path / "xml", "-o", out).return_value == 0
+    text = (out / "one.osc").read_text(encoding="utf-8")
+    point = 'road.create_odr_point("1", "-3", 100m, 0m)'
+    assert f"        ego.begin({point}, 20mps)\n" in text
+    assert "other.assign_speed(15mps)" in text  # it is put beside the other one
+    report = json.loads((out / "one.import.json").read_text(encoding="utf-8"))
+    assert report["measured"]["place_m"] < 0.1
+
+
+def test_entities_of_no_catalog_that_are_alike_share_a_type(tmp_path: Path) -> None:
+    with_catalog(tmp_path / "xml", {"one": "catalogs", "two": "catalogs"})
+    box = """<ScenarioObject name="{}"><MiscObject name="crate" mass="9"
+      miscObjectCategory="obstacle"><BoundingBox><Center x="0" y="0" z="0.5"/>
+      <Dimensions width="1" length="2" height="1"/></BoundingBox>
+      <Properties/></MiscObject></ScenarioObject></Entities>"""
+    for name in ("one", "two"):
+        path = tmp_path / "xml" / f"{name}.xosc"
+        path.write_text(path.read_text().replace("</Entities>", box.format(f"box_{name}")))
+    out = tmp_path / "out"
+    command("import", tmp_path / "xml", "-o", out)
+    assert (out / "common.osc").read_text().count("actor crate inherits movable_object:") == 1
+    assert "box_one: crate\n" in (out / "one.osc").read_text()
+    assert command("check", out).return_value == 0

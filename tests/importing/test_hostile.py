@@ -7,6 +7,7 @@ import pytest
 
 from osc2tx.importing.document import NOWHERE, Folders, Refused
 from osc2tx.importing.importer import Imported, import_document
+from osc2tx.importing.libraries import Library
 from osc2tx.importing.reach import Reach
 from osc2tx.importing.reading import import_file
 from osc2tx_shared.map_files import SHIPPED
@@ -34,7 +35,9 @@ def project(tmp_path: Path) -> Path:
 
 def with_map(folder: Path, named: str, folders: Folders = NOWHERE) -> Imported:
     text = document("").replace(LOGIC, f'<LogicFile filepath="{named}"/>')
-    return import_document(text.encode(), "a.xosc", {}, path=folder / "a.xosc", folders=folders)
+    return import_document(
+        text.encode(), "a.xosc", Library(), path=folder / "a.xosc", folders=folders
+    )
 
 
 def findings(found: Imported, construct: str) -> list[tuple[str, bool]]:
@@ -93,7 +96,7 @@ def test_a_catalog_outside_of_the_project(project: Path, named: str) -> None:
     directory = f'<Directory path="{named.format(outside=outside)}"/>'
     locations = f"<CatalogLocations><VehicleCatalog>{directory}</VehicleCatalog></CatalogLocations>"
     text = text.replace("<CatalogLocations/>", locations)
-    found = import_document(text.encode(), "a.xosc", {}, path=project / "a.xosc")
+    found = import_document(text.encode(), "a.xosc", Library(), path=project / "a.xosc")
     ((said, is_placed),) = findings(found, "<Directory>")
     assert "is not read" in said
     assert is_placed
@@ -110,7 +113,7 @@ def test_a_scenario_outside_of_the_project(project: Path, named: str) -> None:
     text = text.replace("two_cars.xosc", named.format(outside=outside))
     source = written(project, "values.xosc", text)
     with pytest.raises(Refused, match="is not read") as caught:
-        import_file(source, "values", {}, Folders())
+        import_file(source, "values", Library(), Folders())
     assert caught.value.place is not None
 
 
@@ -148,7 +151,7 @@ def test_texts(tmp_path: Path, text: str, reason: str) -> None:
 def test_a_range_of_too_many_values(project: Path) -> None:
     text = DISTRIBUTIONS.format(DETERMINISTIC).replace('stepWidth="2"', 'stepWidth="1e-9"')
     with pytest.raises(Refused, match="a range of") as caught:
-        import_file(written(project, "values.xosc", text), "values", {}, Folders())
+        import_file(written(project, "values.xosc", text), "values", Library(), Folders())
     assert caught.value.place is not None
 
 
@@ -172,7 +175,7 @@ def test_odd_values_are_refused_or_reported(odd: str) -> None:
         for name, value in list(element.attrib.items()):
             element.attrib[name] = odd
             try:
-                import_document(ET.tostring(root), "odd.xosc", {})
+                import_document(ET.tostring(root), "odd.xosc", Library())
             except Refused as error:
                 assert error.reason
             element.attrib[name] = value

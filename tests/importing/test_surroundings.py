@@ -5,7 +5,7 @@ from pathlib import Path
 from osc2tx.importing.carla import is_of_carla, mirrored
 from osc2tx.importing.document import Folders
 from osc2tx.importing.importer import import_document
-from osc2tx.importing.libraries import Libraries
+from osc2tx.importing.libraries import Library
 from osc2tx.xosc import read
 from tests.importing.documents import at_time, document, event, faults, imported
 
@@ -54,19 +54,18 @@ def test_an_environment_of_a_catalog_is_a_scenario_of_its_library(tmp_path: Path
         </ParameterDeclarations><Weather cloudState="free" temperature="$kelvin"/></Environment>
         </Catalog></OpenSCENARIO>"""
     )
-    libraries: Libraries = {}
+    library = Library()
     texts = [
         import_document(
             with_global(reference.format(given)).encode(),
             "document.xosc",
-            libraries,
+            library,
             folders=Folders(catalogs=(tmp_path,)),
         ).text
         for given in ("", cold, "")
     ]
     calls = [line.strip() for text in texts for line in text.splitlines() if "env." in line]
     assert calls == ["env.rain_2()", "env.rain_3()", "env.rain_2()"]
-    (library,) = libraries.values()
     assert library.text.count("clouds(cloudiness: 0)") == 2
     assert "air(temperature: -10celsius)" in library.text
 

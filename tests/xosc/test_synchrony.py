@@ -3,6 +3,7 @@
 import pytest
 
 from osc2tx.importing.importer import import_document
+from osc2tx.importing.libraries import Library
 from osc2tx.xosc import read
 from osc2tx.xosc.player import BY_THE_STANDARD, Evaluator
 from osc2tx.xosc.player.synchrony import Plan, plan
@@ -66,7 +67,7 @@ def test_both_are_there_at_the_same_time(final: str) -> None:
 
 def test_the_import_waits_for_the_master() -> None:
     steady = '<TargetDistanceSteadyState distance="20"/>'
-    text = import_document(synchronized("5", steady).encode(), "x", {}, name="meet").text
+    text = import_document(synchronized("5", steady).encode(), "x", Library(), name="meet").text
     assert "ego.get_s_coord() >= 300m - " in text
     assert "other.change_speed(target: 5mps, rate_profile: constant" in text
 

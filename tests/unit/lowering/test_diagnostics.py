@@ -42,3 +42,23 @@ def test_every_code_of_the_family_has_a_case() -> None:
     of_xml = {code for code in family if CODES[code].slug.endswith("in-xml")}
     of_file_names = {code for code in family if CODES[code].slug == "renamed-module"}
     assert family - of_xml - of_file_names == announced
+
+
+def test_a_struct_of_a_scenario_of_an_actor_is_left_to_the_files_that_invoke_it() -> None:
+    text = """import osc.standard.all
+namespace lib use std, stdtypes
+
+export *
+
+scenario vehicle.begin:
+    at: odr_point
+
+    do assign_position(odr_point: at)
+"""
+    compilation = Compilation(Path("lib.osc"), "lib.osc", CompileOptions(), text=text)
+    assert compilation.module is not None
+    assert list(compilation.diagnostics) == []
+    other = text.replace("vehicle.begin", "begin").replace("do ", "ego: vehicle\n    do ego.")
+    refused = Compilation(Path("lib.osc"), "lib.osc", CompileOptions(), text=other)
+    assert refused.module is None
+    assert [each.code for each in refused.diagnostics] == ["OSC501"]
