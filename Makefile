@@ -64,7 +64,7 @@ $(VENV)/.dist: $(STAMP)
 # The wheels with compiled hot paths, in dist/; their outputs and traces beside those of the files, and
 # the golden and unit tests with them.
 # The runtime is compiled in a copy: its extension modules would be used instead of the files.
-TESTS_OF_COMPILED := tests/golden $(addprefix tests/unit/,analysis backends cli diagnostics formatter ir lowering semantics stdlib syntax)
+TESTS_OF_COMPILED := tests/golden $(addprefix tests/unit/,analysis backends cli diagnostics formatter ir lowering rules semantics stdlib syntax)
 compiled: $(VENV)/.dist
 	rm -rf build/runtime_lib && mkdir -p build dist && cp -r runtime_lib build/runtime_lib
 	HATCH_BUILD_HOOK_ENABLE_MYPYC=1 $(BIN)/python -m pip wheel --quiet --no-deps -w dist build/runtime_lib
