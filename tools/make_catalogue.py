@@ -196,7 +196,9 @@ def _without_statement(what: xml.What, names: set[str], found_on_map: set[str]) 
 
     Relations of the map need no form of their own: roads are looked for before the XML is written.
     """
-    written = xml.with_form(what)
+    written = {*xml.MODIFIERS, *xml.AT_START}
+    if what == "action":
+        written = {*xml.ACTIONS, *xml.GLOBAL_ACTIONS}
     for name in sorted(names - written - found_on_map - xml.WITHOUT_FORM[what].keys()):
         yield (
             f"{what} {name}: OpenSCENARIO XML has neither a form of it nor a reason why not"

@@ -147,13 +147,16 @@ class Measuring:
         declared = declared_values(self._root, values)
         chosen = values_for(self._scenario, settings, declared)
         world = run_in_world(self._scenario, replace(settings, set=chosen))
-        self._chooses = bool(chosen or world.recording.choices)
+        choices = {
+            name: branch for name, branch in world.recording.choices.items() if name in declared
+        }
+        self._chooses = bool(chosen or choices)
         found = run_in_player(
             self._root,
             self._map(),
             dt,
             reading=reading_of(self._tool),
-            given={**values, **world.recording.choices},
+            given={**values, **choices},
             most=time_for(world, longest),
         )
         patience = self._stated / PACE if self._is_bounded else inf

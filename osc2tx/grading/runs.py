@@ -183,6 +183,7 @@ def reading_of(tool: ToolProfile, *, is_lazy: bool = False) -> Reading:
         carries_acceleration=tool.carries_acceleration,
         counts_along_roads=tool.counts_along_roads,
         commands_speeds=tool.commands_speeds,
+        fits_gaps=tool.fits_gaps,
         guesses_at_forks=tool.guesses_at_forks,
     )
 

@@ -38,6 +38,10 @@ class ToolProfile:
             standard it is along the lane, which is shorter or longer in a bend.
         commands_speeds: A speed without a direction is the commanded one, along the entity; one
             with `longitudinal` is a part of its motion, to which lateral motion contributes.
+        fits_gaps: A gap without limits is the free space between boxes as they stand, with speeds
+            that jump, and a time counts at the speed of the reference; in the standard it is along
+            the lane, at speeds that the performance allows, and a time counts at the speed of the
+            one behind.
         guesses_at_forks: An entity that changes lanes, or drives against the traffic, where its
             lane forks may take any of the roads.
         ego_property: Value of the property `type` by which it knows the ego vehicle; empty if it
@@ -70,6 +74,7 @@ class ToolProfile:
     carries_acceleration: bool = False
     counts_along_roads: bool = False
     commands_speeds: bool = False
+    fits_gaps: bool = False
     guesses_at_forks: bool = False
     ego_property: str = ""
     person_model: str = ""
@@ -162,6 +167,7 @@ PROFILES: Mapping[XmlProfile, ToolProfile] = {
         carries_acceleration=True,
         counts_along_roads=True,
         commands_speeds=True,
+        fits_gaps=True,
         guesses_at_forks=True,
         is_lazy=True,
         needs_lane_range=True,

@@ -22,7 +22,7 @@ from osc2tx.options import CompileOptions, XmlOptions
 from osc2tx_runtime import RunSettings
 from osc2tx_shared.map_files import SHIPPED
 from tests.processes import HANGING
-from tests.unit.backends.xosc.documents import PLAIN, compiled
+from tests.unit.backends.xosc.documents import PLAIN, compiled, graded_documents
 from tests.xosc import esmini_laws
 from tests.xosc.case_study import OPTIONS, SCENARIO, maps_in, run_settings, xml_options
 from tests.xosc.parity import (
@@ -139,6 +139,18 @@ def test_laws_of_its_own(text: str, tmp_path: Path) -> None:
     given = Given(path, xml=XmlOptions(profile="esmini"))
     (name,) = documents(given)
     assert compare(*both(given, name, FINE, tmp_path), FINE).place < 0.1
+
+
+@pytest.mark.parametrize("action", ["keep_space_gap", "keep_time_gap"])
+def test_gaps_that_it_fits_are_as_far_off_as_played(action: str, tmp_path: Path) -> None:
+    path = tmp_path / "it.osc"
+    path.write_text(esmini_laws.FOLLOWS_IN_A_BEND.format(action=action), encoding="utf-8")
+    given = Given(path)
+    (graded,) = graded_documents(compiled(path), given.xml)
+    (document,) = documents(given).values()
+    assert document.xml == graded.xml and graded.report.measured is not None
+    found = compare(*both(given, document.name, FINE, tmp_path), FINE)
+    assert found.place == pytest.approx(graded.report.measured.place, abs=0.1)
 
 
 def test_a_speed_does_not_include_lateral_motion(tmp_path: Path) -> None:

@@ -107,3 +107,44 @@ PULLS_OUT_FROM_STANDSTILL = source(
     "crossing",
 )
 """With `direction`, esmini takes lateral motion of a slow car for a part of its speed."""
+
+FOLLOWS_IN_A_BEND = source(
+    [
+        (
+            "follows",
+            "lead, ego: vehicle\ndo parallel:\n    serial:\n"
+            + _drive("lead", 1, "140m", 2)
+            + "        lead.change_speed(target: 6mps, rate_profile: constant, rate_peak: 2mpss)\n"
+            "        lead.drive(duration: 2s)\n"
+            "    ego.{action}(reference: lead, direction: longitudinal) with:\n"
+            "        lane(1, at: start)\n        position(20m, behind: lead, at: start)\n"
+            "        speed(10mps, at: start)\n",
+        )
+    ],
+    "curve",
+)
+"""esmini fits gaps to the boxes as they stand, and a time to the speed of the one ahead."""
+
+LEFT_IN_A_JUNCTION = source(
+    [
+        (
+            "left",
+            """cross: vehicle
+arm, onward: road
+middle: junction
+road.roads_follow_in_junction(
+    junction: middle, in_road: arm, out_road: onward, direction: left
+)
+keep(arm.anchors == ["south"])
+way: compound_route = road.create_route([arm, onward])
+do serial:
+    cross.drive(duration: 14s) with:
+        along(way, start_offset: 30m)
+        speed(9mps)
+    cross.drive(duration: 6s)
+""",
+        )
+    ],
+    "urban_crossing",
+)
+"""The way is left by a change to the own lane, in a junction where roads overlap."""

@@ -21,6 +21,8 @@ from tests.xosc.esmini_laws import (
     AFTER_AN_EVEN_CHANGE,
     BESIDE_IN_A_BEND,
     CHANGE_AT_A_FORK,
+    FOLLOWS_IN_A_BEND,
+    LEFT_IN_A_JUNCTION,
     PULLS_OUT_FROM_STANDSTILL,
     PUT_AT_THE_START,
     WAITS_FOR_THE_SAME_INSTANT,
@@ -29,10 +31,12 @@ from tests.xosc.esmini_laws import (
 CURVATURE, WIDTH = 1.0 / 120.0, 3.5  # of the road "curve" between s = 150 m and 270 m
 
 
-def built(folder: Path, text: str, profile: XmlProfile) -> XmlScenario:
+def built(
+    folder: Path, text: str, profile: XmlProfile, *, allow_approx: bool = False
+) -> XmlScenario:
     path = folder / "it.osc"
     path.write_text(text, encoding="utf-8")
-    options = CompileOptions(xml=XmlOptions(profile=profile))
+    options = CompileOptions(xml=XmlOptions(profile=profile, allow_approx=allow_approx))
     compilation = Compilation(path, path.name, options)
     assert compilation.check(), compilation.diagnostics
     (found,) = compilation.graded_xml
@@ -143,3 +147,27 @@ def test_a_document_that_never_ends_is_no_document(tmp_path: Path) -> None:
     (result,) = graded([replace(found, xml=by_the_standard.xml)], source, compilation.sink)
     assert result.xml is None
     assert "measured: " in str(result.report.losses[0].bound)
+
+
+@pytest.mark.parametrize(
+    ("action", "reason"),
+    [
+        ("keep_space_gap", "a gap is counted between boxes as they stand, which turn in bends"),
+        ("keep_time_gap", "a time gap without limits follows each change of a speed at once"),
+    ],
+)
+def test_gaps_in_a_bend_are_as_far_off_as_measured(
+    action: str, reason: str, tmp_path: Path
+) -> None:
+    text = FOLLOWS_IN_A_BEND.format(action=action)
+    found = built(tmp_path, text, "esmini", allow_approx=True)
+    (loss,) = found.report.losses
+    assert (loss.construct, loss.reason) == (f"action {action}", reason)
+    assert found.report.measured is not None and 0.1 < found.report.measured.place < 5.0
+    assert not built(tmp_path, text, "generic").report.losses
+
+
+def test_a_way_that_is_left_in_a_junction_is_played(tmp_path: Path) -> None:
+    """It is left by a change to the own lane, which is looked for from the place on the way."""
+    (loss,) = built(tmp_path, LEFT_IN_A_JUNCTION, "esmini").report.losses
+    assert loss.reason == FORK

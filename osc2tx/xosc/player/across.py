@@ -50,7 +50,9 @@ class Offsets:
             run.side = self._scene.side(body, node, "lateral")
             return run
         if body.place is None:
-            raise Unplayable(f"{body.name} is on no lane")
+            if body.kind != "Vehicle":
+                raise Unplayable(f"{body.name} is on no lane")
+            body.put(self._scene.map, body.in_lane(self._scene.map), body.here.h)  # off its path
         if node.tag == "LaneOffsetAction":
             run.length, run.offset = self._to_offset(body, node)
             return run

@@ -11,7 +11,7 @@ from osc2tx.xosc.player.bodies import LATERAL, Body, Running, hang
 from osc2tx.xosc.player.errors import Unplayable
 from osc2tx.xosc.player.places import place_of
 from osc2tx.xosc.player.scene import STILL, Scene
-from osc2tx.xosc.player.speeds import Speeds
+from osc2tx.xosc.player.speeds import BY_THE_STANDARD, Laws, Speeds
 from osc2tx.xosc.player.ways import Ways
 from osc2tx_runtime.opendrive import RoadMap
 
@@ -25,12 +25,11 @@ class Stage:
         bodies: dict[str, Body],
         road_map: RoadMap,
         dt: float,
-        *,
-        carries: bool = False,
+        laws: Laws = BY_THE_STANDARD,
     ) -> None:
         self._root = root
         self._scene = Scene(bodies, road_map, dt)
-        self._speeds = Speeds(self._scene, carries=carries)
+        self._speeds = Speeds(self._scene, laws)
         self._offsets, self._ways = Offsets(self._scene), Ways(self._scene)
 
     # --- starting ---------------------------------------------------------------------------------

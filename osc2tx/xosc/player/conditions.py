@@ -38,6 +38,7 @@ class Reading:
         counts_along_roads: A position relative to an entity counts metres along its road, not its
             lane.
         commands_speeds: A speed without a direction is that along the entity.
+        fits_gaps: A gap without limits is fitted in each step, to the space between boxes.
         guesses_at_forks: At a fork, lane changes and driving against traffic may lead anywhere.
     """
 
@@ -47,6 +48,7 @@ class Reading:
     carries_acceleration: bool = False
     counts_along_roads: bool = False
     commands_speeds: bool = False
+    fits_gaps: bool = False
     guesses_at_forks: bool = False
 
 

@@ -109,6 +109,13 @@ class Ruler:
             extent(b, *self._axis_at(b, a, kind, system)),
         )
 
+    def space_ahead(self, a: Body, b: Body) -> float:
+        """Return the space ahead of a box to another one, negative behind; 0 if they overlap."""
+        found = self.signed(a, b, "longitudinal", "entity")
+        assert found is not None, "a straight line leads anywhere"
+        own, other = self.extents(a, b, "longitudinal", "entity")
+        return math.copysign(own.apart(Extent(found + other.low, found + other.high)), found)
+
     def signed(self, a: Body, b: Body, kind: str, system: str) -> float | None:
         """Return how far b is ahead of a, or to its left; `None` without a route."""
         if system in ("road", "lane"):

@@ -16,13 +16,30 @@ from osc2tx.xosc.player.courses import PEAK_RATES, Course, between, number, shap
 from osc2tx.xosc.player.errors import Unplayable
 from osc2tx.xosc.player.scene import GAP_REACHED, STILL, Scene
 from osc2tx.xosc.player.synchrony import Synchrony
+from osc2tx_shared.classes import dataclass
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Laws:
+    """What a tool does with speeds otherwise than the standard.
+
+    Attributes:
+        carries: A profile of speeds begins with the present acceleration.
+        fits_gaps: A gap without limits is fitted in each step, to the space between boxes.
+    """
+
+    carries: bool = False
+    fits_gaps: bool = False
+
+
+BY_THE_STANDARD = Laws()
 
 
 class Speeds:
     """Longitudinal actions at work."""
 
-    def __init__(self, scene: Scene, *, carries: bool) -> None:
-        self._scene, self._carries = scene, carries
+    def __init__(self, scene: Scene, laws: Laws) -> None:
+        self._scene, self._laws = scene, laws
         self._synchrony = Synchrony(scene)
         self._next: dict[str, float] = {}  # of the next step, as far as they are known
 
@@ -99,7 +116,7 @@ class Speeds:
                 courses.append(None)
                 continue
             peak = limit("maxAcceleration" if end > v else "maxDeceleration")
-            rate = self._carried(body) if self._carries and not courses else 0.0
+            rate = self._carried(body) if self._laws.carries and not courses else 0.0
             course, time = with_jerk(v, end, peak, limit("maxAccelerationRate"), rate)
             courses.append(course)
             points.append((begin + time, end))
@@ -150,7 +167,10 @@ class Speeds:
         wanted = number(node, "distance")
         if node.get("timeGap") is not None:
             wanted = number(node, "timeGap") * (body.v if is_behind else leader.v)
-        if limits is None and node.get("continuous") == "true":
+        is_rigid = limits is None and node.get("continuous") == "true"
+        if is_rigid and self._laws.fits_gaps:
+            return self._fitted(body, run, node, leader)
+        if is_rigid:
             time = number(node, "timeGap")
             return self._possible(body, self._rigid(body, leader, gap, time, is_behind=is_behind))
         wanted += self._between_ends(body, leader, node, is_behind=is_behind)
@@ -166,6 +186,18 @@ class Speeds:
         fastest = math.inf if limits is None else number(limits, "maxSpeed", math.inf)
         wanted = body.v + min(max(rate, -low), high) * self._scene.dt
         return self._possible(body, _within(wanted, fastest))
+
+    def _fitted(self, body: Body, run: Running, node: Element, leader: Body) -> float:
+        """Move an entity to its distance, and return the speed of the reference."""
+        scene, wanted = self._scene, number(node, "distance")
+        if node.get("timeGap") is not None:
+            wanted = number(node, "timeGap") * abs(leader.v)
+        speed = self.next_of(leader)
+        gap = scene.gap(body, node, "longitudinal")
+        if node.get("freespace") == "true":
+            gap = scene.ruler.space_ahead(body, leader)
+        body.move(scene.map, gap - run.side * wanted, None, scene.dt)
+        return speed
 
     def _at_once(self, body: Body, node: Element, side: int) -> Running:
         """Place an entity at its distance: the motion is not limited."""

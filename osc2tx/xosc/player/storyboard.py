@@ -21,6 +21,7 @@ from osc2tx.xosc.player.courses import with_parameters
 from osc2tx.xosc.player.distances import Ruler
 from osc2tx.xosc.player.errors import Unplayable
 from osc2tx.xosc.player.global_state import GlobalState
+from osc2tx.xosc.player.speeds import Laws
 from osc2tx.xosc.reader import read
 from osc2tx_runtime.opendrive import RoadMap
 
@@ -91,8 +92,8 @@ class Evaluator:
             body.counts_along_road = reading.counts_along_roads
             body.reports_commanded = reading.commands_speeds
             self.bodies[body.name] = body
-        carries = reading.carries_acceleration
-        self.stage = Stage(self.root, self.bodies, road_map, dt, carries=carries)
+        laws = Laws(carries=reading.carries_acceleration, fits_gaps=reading.fits_gaps)
+        self.stage = Stage(self.root, self.bodies, road_map, dt, laws)
         self.ruler = Ruler(road_map)
         self.globals = GlobalState(self.root, self._changed)
         self.states: dict[int, str] = {}

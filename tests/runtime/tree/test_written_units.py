@@ -71,6 +71,11 @@ def test_speeds_are_set_in_any_unit_of_speed(text: str, si: float) -> None:
     assert Speeds(RunSettings(set={"v": value})).v == pytest.approx(si, rel=1e-12)
 
 
+def test_decimals_of_a_bound_are_the_bound() -> None:
+    for written, bound in ((5.5555555556, 20 * kph), (2.7777777777, 10 * kph)):
+        assert Speeds(RunSettings(set={"slow": written})).slow == bound != written
+
+
 def test_a_unit_of_the_scenario() -> None:
     assert Speeds(RunSettings(set={"gap": "4cubit"})).gap == 2.0
 

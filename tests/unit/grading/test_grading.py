@@ -13,7 +13,7 @@ from osc2tx.compilation.driver import Compilation
 from osc2tx.grading import Source, graded
 from osc2tx.losses.bounds import Metres
 from osc2tx.losses.entries import Grade
-from osc2tx.options import CompileOptions, Target, XmlOptions
+from osc2tx.options import CompileOptions, OneOfPolicy, Target, XmlOptions
 from osc2tx.support.records import Records
 from osc2tx_shared.map_files import SHIPPED
 
@@ -54,12 +54,13 @@ def grade(
     target: Target = "xosc",
     bound: Metres | None = None,
     findings: Records | None = None,
+    one_of: OneOfPolicy = "race",
     **xml: bool,
 ) -> tuple[XmlScenario, Compilation]:
     """Return a document that was changed after it was written, graded; and its compilation."""
     path = folder / "top.osc"
     path.write_text(text, encoding="utf-8")
-    options = CompileOptions(target=target, xml=XmlOptions(**xml))
+    options = CompileOptions(target=target, xml=XmlOptions(**xml), one_of=one_of)
     compilation = Compilation(path, path.name, options)
     assert compilation.check(), compilation.diagnostics
     (found,) = compilation.xml
@@ -84,8 +85,9 @@ def codes(compilation: Compilation) -> list[str]:
     return [each.code for each in compilation.diagnostics]
 
 
-def test_what_is_right_stays_exact_at_all_corners(tmp_path: Path) -> None:
-    found, compilation = grade(tmp_path)
+@pytest.mark.parametrize("values", ["[10mps..20mps]", "[40kph..70kph]"])
+def test_what_is_right_stays_exact_at_all_corners(values: str, tmp_path: Path) -> None:
+    found, compilation = grade(tmp_path, text=TEXT.replace("[10mps..20mps]", values))
     assert found.xml is not None and found.report_json is None
     assert found.report.measured is not None
     assert found.report.measured.runs == 3
@@ -267,8 +269,18 @@ scenario top:
 """
 
 
-def test_what_the_world_draws_is_one_of_the_values_of_the_document(tmp_path: Path) -> None:
-    found, compilation = grade(tmp_path, text=DRAWN)
+CHOSEN = DRAWN[: DRAWN.index("        ego.change_lane")] + """\
+        one_of:
+            ego.change_lane(side: left, duration: 4s)
+            ego.change_speed(target: 24mps, rate_profile: smooth, duration: 3s)
+"""
+
+
+@pytest.mark.parametrize("text", [DRAWN, CHOSEN], ids=["side", "branch"])
+def test_what_the_world_draws_is_one_of_the_values_of_the_document(
+    text: str, tmp_path: Path
+) -> None:
+    found, compilation = grade(tmp_path, text=text, one_of="seeded")
     assert found.xml is not None and found.parameters is not None
     assert codes(compilation) == []
 

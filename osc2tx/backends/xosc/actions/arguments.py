@@ -69,6 +69,14 @@ class Arguments:
         given = self.number(name)
         return self.number(f"{name}_range") if given is None else given
 
+    def distance(self) -> float:
+        """Return metres, or what stands for the range that is said instead."""
+        size = self.size("distance")
+        if size is None:
+            shape = " but a shape" if "shape" in self else ""
+            raise Inexpressible(f"no distance{shape} is stated", self.span)
+        return size
+
     def count(self, name: str) -> int:
         """Return a whole number, 1 if it is left out."""
         number = self.number(name)

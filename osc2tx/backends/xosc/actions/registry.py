@@ -82,11 +82,6 @@ def without_form(what: What, name: str, reason: str) -> None:
     WITHOUT_FORM[what][name] = reason
 
 
-def with_form(what: What) -> set[str]:
-    """Return the actions or modifiers that have a form."""
-    return {*ACTIONS, *GLOBAL_ACTIONS} if what == "action" else {*MODIFIERS, *AT_START}
-
-
 def apply_modifiers(leaf: Leaf) -> Changes:
     """Return what the modifiers of an invocation change."""
     changes: list[Change] = []

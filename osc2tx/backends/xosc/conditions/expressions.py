@@ -186,9 +186,9 @@ def _rule(ctx: Context, operator: str, expression: ir.Binary) -> Rule:
 
 def _measured(ctx: Context, measure: ir.Expression, rule: Rule, value: float, edge: Edge) -> Groups:
     match measure:
-        case ir.Attribute(base=base, name=name, owner=owner):
+        case ir.Attribute(base=base, name=name):
             arguments: dict[str, Constant] = {}
-        case ir.MethodCall(base=base, method=name, owner=owner):
+        case ir.MethodCall(base=base, method=name):
             arguments = {a.parameter: _argument(ctx, a.value) for a in measure.arguments}
         case _:
             raise Inexpressible(
@@ -204,7 +204,9 @@ def _measured(ctx: Context, measure: ir.Expression, rule: Rule, value: float, ed
     found = MEASURES.get(name)
     if found is None or not isinstance(actor, Named) or actor.name not in ctx.cast:
         waiting = Remedy(instead="a wait for the event or time at which it changes is exact")
-        raise Inexpressible(f"there is no condition on `{owner}.{name}`", measure.span, waiting)
+        raise Inexpressible(
+            f"there is no condition on `{measure.span.text}`", measure.span, waiting
+        )
     comparison = Comparison(
         actor=ctx.cast[actor.name].name,
         name=name,

@@ -79,7 +79,8 @@ def invoke(builder: StoryboardBuilder, node: ir.Invoke, start: Flow) -> Flow:
             ctx.note_move(other.name, node, state, state)
     ends = _ends(builder, node, start, goal, performance)
     successors = builder.claimed_by(overriding)
-    for change in performance.changes:
+    # Along a path its place is that of the path, whatever else changes.
+    for change in sorted(performance.changes, key=lambda each: each.domain == LATERAL):
         is_over = not overriding and _is_over(change, lasting)
         record_end_state(builder, leaf, change, is_over=is_over)
         if (member.name, change.domain) in successors:

@@ -15,6 +15,7 @@ NumberT = TypeVar("NumberT", int, float)
 ValueT = TypeVar("ValueT", bound=bool | int | float | str)
 
 INFINITY: Any = math.inf  # a bound of whole numbers as well
+ROUNDING = 1e-9  # relative, of values that are written down
 
 
 @dataclass(frozen=True, slots=True)
@@ -168,6 +169,7 @@ def choose(
             )
         return value
     value = fit(name, settings[name], value() if isinstance(value, type) else value, unit)
+    value = _unrounded(value, domain)
     problem = outside(value, domain, unit)
     if problem:
         raise SettingsError(f"--set {name}={problem}")
@@ -199,6 +201,17 @@ def outside(value: Any, domain: Domain | None, unit: Unit | None) -> str:
     if domain is None or value in domain:
         return ""
     return f"{shown_value(value, unit)}: the scenario allows {domain.shown(unit)}"
+
+
+def _unrounded(value: Any, domain: Domain | None) -> Any:
+    """Return the bound or choice that a value is but for the rounding of its decimals.
+
+    80 km/h are 22.2222222222 m/s in a document, which is less.
+    """
+    if domain is None or isinstance(value, str):
+        return value
+    exact = (domain.low, domain.high) if isinstance(domain, Range) else domain.values
+    return next((each for each in exact if math.isclose(value, each, rel_tol=ROUNDING)), value)
 
 
 def fit(name: str, value: float | str, like: Any, unit: Unit | None) -> Any:

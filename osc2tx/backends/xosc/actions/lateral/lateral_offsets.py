@@ -104,9 +104,7 @@ def left_of(arguments: Arguments, own: float, theirs: float | None) -> float:
 
     The own width and theirs, which may be unknown, are in metres; it refuses as `offset_in_lane`.
     """
-    distance = arguments.size("distance")
-    if distance is None:
-        raise Inexpressible("no distance is stated", arguments.span)
+    distance = arguments.distance()
     side = arguments.member("side", "left")
     left = -distance if side == "right" else distance
     measured = arguments.member("measure_by", "center_to_center")
@@ -180,9 +178,7 @@ def _lateral(leaf: Leaf, call: Arguments) -> Changes:
 
 def _beside(leaf: Leaf, call: Arguments, reference: CastMember) -> Changes:
     """Return the control of the distance across the road from another actor."""
-    size = call.size("distance")
-    if size is None:
-        raise Inexpressible("no distance is stated")
+    size = call.distance()
     side = "left" if call.member("side", "left") == "left" else "right"
     measured = call.member("measure_by", "center_to_center")
     facing = ("left_to_right", "closest") if side == "right" else ("right_to_left", "closest")

@@ -87,32 +87,30 @@ def along_line(leaf: Leaf, line: Line, arguments: Arguments) -> Changes:
     """Return the changes of a path or a trajectory, without the parts that arguments leave out."""
     line, is_exact = replace(line, offsets=arguments.offsets()), may_jump(leaf)
     if leaf.enters and line.frame is None:
-        reason = "a run plans how the actor gets to the path by then"
-        raise Inexpressible(reason)
+        raise Inexpressible("a run plans how the actor gets to the path by then")
     points = line.points
     if line.is_timed and points and points[0].time > 0.0:
         if line.frame is not None or any(line.offsets):
             raise Inexpressible("a trajectory that begins later, from wherever the actor is then")
         here = leaf.state.pose
         if here is None:
-            reason = "where it starts from is only known during the run"
-            raise Inexpressible(reason)
+            raise Inexpressible("where it starts from is only known during the run")
         points = (Waypoint(0.0, here.x, here.y, here.z), *points)
     corners = sample_curve(replace(line, points=points))
     vertices = [_vertex(leaf, line, each) for each in corners]
-    if not (line.is_timed or is_exact or _is_there(leaf, corners[0])) and line.frame is None:
+    if not (line.is_timed or is_exact or _is_there(leaf, line, corners[0])):
         start = xml.RelativeObjectPosition(entityRef=leaf.member.name, dx=0.0, dy=0.0)
         vertices = [(0.0, start), *vertices]  # it goes to the path, it does not jump
     if not is_exact:
         note_steering(leaf, is_timed=line.is_timed)
     action = follow(leaf, vertices, line.is_timed, is_exact)
     if not line.is_timed:
-        after = _at_end(leaf, line, corners[-1], leaf.state)
+        after = _at_end(leaf, line, corners, leaf.state)
         during = replace(after, lane=None, offset=None, pose=None)
         return (Change(LATERAL, (action,), _time(leaf, corners), during, after),)
     before, end = corners[-2:]
     speed = known(math.dist(end[1:3], before[1:3]) / (end.time - before.time))
-    after = _at_end(leaf, line, corners[-1], replace(leaf.state, speed=speed))
+    after = _at_end(leaf, line, corners, replace(leaf.state, speed=speed))
     during = replace(after, speed=None, lane=None, offset=None, pose=None)
     return (
         Change(LONGITUDINAL, (action,), end.time, during, after),
@@ -149,19 +147,23 @@ def _time(leaf: Leaf, corners: Sequence[Waypoint]) -> float | None:
     return way / speed
 
 
-def _is_there(leaf: Leaf, point: Waypoint) -> bool:
+def _is_there(leaf: Leaf, line: Line, point: Waypoint) -> bool:
     """Whether an actor surely begins where a line does: tools set out on no line of no length."""
+    if line.frame is not None:
+        return line.reference != leaf.member.name or math.hypot(point.x, point.y) < 1e-3
     pose, lane, roads = leaf.state.pose, leaf.state.lane, leaf.ctx.roads
     if pose is None and leaf.is_start and lane is not None and roads is not None:
         pose = roads.map.pose(lane)
     return pose is not None and math.hypot(point.x - pose.x, point.y - pose.y) < 1e-3
 
 
-def _at_end(leaf: Leaf, line: Line, end: Waypoint, state: ActorState) -> ActorState:
+def _at_end(leaf: Leaf, line: Line, way: Sequence[Waypoint], state: ActorState) -> ActorState:
     """Return what is known at the end of a way, from what is known of the speed there."""
     lane = pose = offset = None
     if line.frame is None:
-        pose = None if leaf.state.pose is None else Pose(end.x, end.y, end.z, end.h or 0.0)
+        before, end = way[-2:]
+        h = math.atan2(end.y - before.y, end.x - before.x) if end.h is None else end.h
+        pose = None if leaf.state.pose is None else Pose(end.x, end.y, end.z, h)
         if pose is None and leaf.ctx.roads is not None:
             lane = leaf.ctx.roads.locate(end.x, end.y, end.z)
     if lane is not None:

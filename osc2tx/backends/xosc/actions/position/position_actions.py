@@ -19,11 +19,11 @@ from osc2tx.backends.xosc.actions.position.xml_positions import (
     world_position,
 )
 from osc2tx.backends.xosc.actions.registry import action, apply_modifiers, modifier, to_goal
-from osc2tx.backends.xosc.actions.speed.courses import Computed, follow_course, speed_action
+from osc2tx.backends.xosc.actions.speed.courses import POINTS, Computed, follow_course, speed_action
 from osc2tx.backends.xosc.actions.speed.gaps import Gap, reach
-from osc2tx.backends.xosc.actions.speed.speed_modifiers import cover_in_time
+from osc2tx.backends.xosc.actions.speed.speed_modifiers import check_end_is_free, cover_in_time
 from osc2tx.backends.xosc.entities.cast import VEHICLE, CastMember
-from osc2tx.backends.xosc.facts.actors import CRUISE, Linear
+from osc2tx.backends.xosc.facts.actors import CRUISE, Linear, steepest
 from osc2tx.backends.xosc.facts.maps import Pose, place_along_road
 from osc2tx.backends.xosc.state import LATERAL, LONGITUDINAL, ActorState, known
 from osc2tx.backends.xosc.values.constants import Member, Named
@@ -186,10 +186,7 @@ def _position(leaf: Leaf, call: Arguments) -> Changes:
         return _at_point(leaf, call)
     reference, is_behind = call.ahead_of()
     if reference is None:
-        along = call.size("distance")
-        if along is None:
-            raise Inexpressible("no distance is stated")
-        return _along_road(leaf, call, along)
+        return _along_road(leaf, call, call.distance())
     for name in ("movement_mode", "track"):
         if name in call and call.member(name, "") not in ("other", "actual"):
             raise Inexpressible(f"`{name}` has no counterpart")
@@ -247,23 +244,26 @@ def _along_road(leaf: Leaf, call: Arguments, distance: float) -> Changes:
 # --- to be somewhere in time --------------------------------------------------------------------
 
 
-def arrival(start: float, missing: float, duration: float) -> Computed:
-    """Return the speed with the least effort that covers a way in a time (s), free at the end.
+def arrival(start: float, missing: float, duration: float, end: float | None = None) -> Computed:
+    """Return the speed with the least effort that covers a way in a time (s).
 
-    The acceleration falls evenly to zero: a(t) = 3 m (T - t) / T^3 for what is missing: the metres
-    m that the speed at the start (m/s) would not cover.
+    Missing are metres that the first speed (m/s) would not cover; at a free end it is steady.
     """
+    mean = missing / duration
+    change = 1.5 * mean if end is None else end - start
 
     def value(t: float) -> float:
         share = t / duration
-        return start + 3.0 * missing / duration * share * (1.0 - 0.5 * share)
+        return start + share * (change + (6.0 * mean - 3.0 * change) * (1.0 - share))
 
     return Computed(duration, value)
 
 
 def _in_time(leaf: Leaf, call: Arguments, gap: Gap) -> Change:
     """Return the change of the speed that leads to a place beside another actor in time."""
-    speed, time = leaf.state.known_speed, leaf.duration
+    check_end_is_free(leaf, call, "speed")
+    speed, time, told = leaf.state.known_speed, leaf.duration, leaf.modifier("speed")
+    end = told.number("speed") if told is not None and told.at == "end" else None
     apart = leaf.starts_behind(gap.reference)
     theirs = leaf.state_of(gap.reference, always=True).known_speed
     if speed is None or apart is None or theirs is None or time is None or gap.is_time:
@@ -274,10 +274,13 @@ def _in_time(leaf: Leaf, call: Arguments, gap: Gap) -> Change:
         return reach(leaf, gap, keeps=False)
     way = apart + (gap.size if gap.side == "ahead" else -gap.size)
     missing = way + (theirs - speed) * time
-    course = arrival(speed, missing, time)
+    course = arrival(speed, missing, time, end)
     # Without courses of the speed an even change leads to the same place in the same time.
     even = Linear(speed, speed + 2.0 * missing / time, time)
-    change = follow_course(leaf, course, even=even, told=call)
+    faster, slower = steepest(course)
+    if faster > leaf.limits.acceleration or slower > leaf.limits.deceleration:
+        call.doubt("it takes a larger acceleration than the actor has: the world makes up for it")
+    change = follow_course(leaf, course, even=even, told=call, count=2 * POINTS)
     if change.after.speed is None or change.after.speed.low < 0.0:
         raise Inexpressible("it would have to go backwards")
     return change

@@ -88,6 +88,11 @@ def _speed(leaf: Leaf, call: Arguments) -> Changes:
         if speed is not None:
             target = min(max(speed, allowed.lower), allowed.upper)
     reference = next((name for name in RELATIVE if name in call), None)
+    place = leaf.modifier("position")
+    if call.at == "end" and place is not None and place.at == "end":
+        if reference is not None:
+            raise Inexpressible("a speed relative to another one, at the end of the way to a place")
+        return ()  # the way there ends with it
     if reference is not None:
         return (_relative(leaf, call, reference, target or 0.0),)
     if target is None:
@@ -209,7 +214,7 @@ def _distance(leaf: Leaf, call: Arguments) -> Changes:
     distance = call.required("distance")
     if leaf.duration is not None:
         return (cover_in_time(leaf, call, distance, leaf.duration),)
-    _check_end_is_free(leaf, call)
+    check_end_is_free(leaf, call)
     leaf.distance = distance
     return ()
 
@@ -220,7 +225,7 @@ def cover_in_time(leaf: Leaf, call: Arguments, distance: float, time: float) -> 
     Raises:
         Inexpressible: Something else decides how it gets there.
     """
-    _check_end_is_free(leaf, call)
+    check_end_is_free(leaf, call)
     start = leaf.state.known_speed
     if start is None:
         raise Inexpressible(UNKNOWN_SPEED)
@@ -232,10 +237,11 @@ def cover_in_time(leaf: Leaf, call: Arguments, distance: float, time: float) -> 
     )
 
 
-def _check_end_is_free(leaf: Leaf, call: Arguments) -> None:
+def check_end_is_free(leaf: Leaf, call: Arguments, *free: str) -> None:
+    """Require that nothing but a modifier, and free ones, holds at the end of an invocation."""
     ends = [m.name for m in leaf.node.modifiers if m is not call.source and m.at == "end"]
-    across = () if leaf.duration is None else ("lane", "lateral", "change_lane")
-    if any(name not in across for name in ends):
+    free += () if leaf.duration is None else ("lane", "lateral", "change_lane")
+    if any(name not in free for name in ends):
         reason = f"what has to hold at the end of its {call.name} decides how it gets there"
         raise Inexpressible(reason)
 
