@@ -34,8 +34,9 @@ class ToolProfile:
         has_booleans: It compares variables with `true` and `false`, not only with numbers.
         carries_acceleration: A profile of speeds begins with the present acceleration; by the
             standard it begins without any.
-        counts_along_roads: A position by lanes from an actor counts `dsLane` along the road; in the
-            standard it is along the lane, which is shorter or longer in a bend.
+        counts_along_roads: A position by lanes from an actor counts `dsLane`, and a distance in the
+            coordinate system of lanes counts, along the road; in the standard it is along the
+            lane, which is shorter or longer in a bend.
         commands_speeds: A speed without a direction is the commanded one, along the entity; one
             with `longitudinal` is a part of its motion, to which lateral motion contributes.
         fits_gaps: A gap without limits is the free space between boxes as they stand, with speeds

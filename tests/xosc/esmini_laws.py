@@ -148,3 +148,26 @@ do serial:
     "urban_crossing",
 )
 """The way is left by a change to the own lane, in a junction where roads overlap."""
+
+GAP = "space_gap(reference: lead, direction: longitudinal) < -8m"
+HEADWAY = "space_headway(reference: lead) > 12m"
+LOOKS_AT_A_GAP_IN_A_BEND = source(
+    [
+        (
+            "looks",
+            "lead, ego: vehicle\ndo parallel:\n"
+            + _drive("lead", 1, "190m", 1).replace("duration: 2s", "duration: 6s")
+            + """\
+    serial:
+        ego.drive() with:
+            lane(1, at: start)
+            position(25m, behind: lead, at: start)
+            speed(14mps)
+            until fall(ego.{measure})
+        ego.change_speed(target: 10mps, rate_profile: constant, rate_peak: 4mpss)
+""",
+        )
+    ],
+    "curve",
+)
+"""The outer lane is longer than the road, along which esmini counts."""

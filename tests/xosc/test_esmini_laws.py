@@ -22,7 +22,10 @@ from tests.xosc.esmini_laws import (
     BESIDE_IN_A_BEND,
     CHANGE_AT_A_FORK,
     FOLLOWS_IN_A_BEND,
+    GAP,
+    HEADWAY,
     LEFT_IN_A_JUNCTION,
+    LOOKS_AT_A_GAP_IN_A_BEND,
     PULLS_OUT_FROM_STANDSTILL,
     PUT_AT_THE_START,
     WAITS_FOR_THE_SAME_INSTANT,
@@ -149,22 +152,24 @@ def test_a_document_that_never_ends_is_no_document(tmp_path: Path) -> None:
     assert "measured: " in str(result.report.losses[0].bound)
 
 
-@pytest.mark.parametrize(
-    ("action", "reason"),
-    [
-        ("keep_space_gap", "a gap is counted between boxes as they stand, which turn in bends"),
-        ("keep_time_gap", "a time gap without limits follows each change of a speed at once"),
-    ],
-)
-def test_gaps_in_a_bend_are_as_far_off_as_measured(
-    action: str, reason: str, tmp_path: Path
-) -> None:
+@pytest.mark.parametrize("action", ["keep_space_gap", "keep_time_gap"])
+def test_gaps_in_a_bend_are_as_far_off_as_measured(action: str, tmp_path: Path) -> None:
     text = FOLLOWS_IN_A_BEND.format(action=action)
     found = built(tmp_path, text, "esmini", allow_approx=True)
     (loss,) = found.report.losses
-    assert (loss.construct, loss.reason) == (f"action {action}", reason)
+    assert loss.construct == f"action {action}" and "boxes that turn" in loss.reason
     assert found.report.measured is not None and 0.1 < found.report.measured.place < 5.0
     assert not built(tmp_path, text, "generic").report.losses
+
+
+@pytest.mark.parametrize("measure", ["time_headway(reference: lead) > 1.2s", GAP, HEADWAY])
+def test_gaps_are_counted_along_lanes_but_by_esmini(measure: str, tmp_path: Path) -> None:
+    text = LOOKS_AT_A_GAP_IN_A_BEND.format(measure=measure)
+    found = document(tmp_path, text, "generic")
+    systems = {each.get("coordinateSystem") for each in found.walk()} - {None, "entity"}
+    assert systems == {"lane"}
+    (loss,) = built(tmp_path, text, "esmini", allow_approx=True).report.losses
+    assert loss.reason == "esmini counts along the road, not the lane"
 
 
 def test_a_way_that_is_left_in_a_junction_is_played(tmp_path: Path) -> None:

@@ -1,10 +1,13 @@
 """Paths: where they begin, and what is known where they end."""
 
+import math
 from pathlib import Path
 
 import pytest
 
 from osc2tx.options import XmlOptions
+from osc2tx.xosc import elements as xml
+from osc2tx.xosc import read
 from tests.xosc.case_texts import source
 from tests.xosc.parity import Given, difference, scenarios
 
@@ -33,6 +36,7 @@ do serial:
         speed(1.4mps)
     walker.walk(duration: 2s)
 """
+GOES_ON = WALKS_ON.replace("walker.walk(duration: 2s)", "wait elapsed(3s)")
 LATER_ON_ITS_WAY = """\
 ego: vehicle
 here: pose_3d with:
@@ -64,3 +68,16 @@ def test_ways_begin_and_end_where_the_actor_is(text: str, tmp_path: Path) -> Non
     (document,) = scenarios(given)
     assert document.xml is not None and not document.report.losses
     assert not difference(given, document).beyond(0.05)
+
+
+def test_behind_a_way_a_walker_goes_on_by_a_way(tmp_path: Path) -> None:
+    """Tools would send it along the lane."""
+    path = tmp_path / "it.osc"
+    path.write_text(source([("it", GOES_ON)], "crossing"), encoding="utf-8")
+    given = Given(path, xml=XmlOptions())
+    (found,) = scenarios(given)
+    assert found.xml is not None and not found.report.losses
+    onward = read(found.xml).below(xml.Event)
+    (way,) = (each for each in onward if each.name == "walker_replay_path_onward")
+    begin, *_ = way.below(xml.WorldPosition)
+    assert (begin.x, begin.y) == (104.0, 4.0) and begin.h == pytest.approx(0.5 * math.pi)

@@ -197,7 +197,7 @@ class Ruler:
         if mine.road == theirs.road:
             if kind == "lateral":
                 return (centre(self.map, theirs) - centre(self.map, mine)) * up
-            return self._along(mine, theirs, system) * up
+            return self._along(mine, theirs, "road" if a.counts_along_road else system) * up
         along = self.map.route_distance(mine, theirs)
         if along is None:
             return None

@@ -73,8 +73,8 @@ class Arguments:
         """Return metres, or what stands for the range that is said instead."""
         size = self.size("distance")
         if size is None:
-            shape = " but a shape" if "shape" in self else ""
-            raise Inexpressible(f"no distance{shape} is stated", self.span)
+            instead = " but a shape" if "shape" in self else ""
+            raise Inexpressible(f"no distance{instead} is stated", self.span)
         return size
 
     def count(self, name: str) -> int:

@@ -46,7 +46,9 @@ def along_road(
     def measure(ctx: Context, c: Comparison) -> Groups:
         is_free = c.is_free if freespace is None else freespace
         along = direction or c.member("direction", "longitudinal")
-        return _signed(ctx, c, along, is_free, "road", ahead_is_positive=ahead_is_positive)
+        is_of_lanes = freespace is not None and along == "longitudinal"
+        system: CoordinateSystem = "lane" if is_of_lanes else "road"
+        return _signed(ctx, c, along, is_free, system, ahead_is_positive=ahead_is_positive)
 
     return measure
 
@@ -80,8 +82,8 @@ def _signed(
     is_ahead, rule, value = ahead_is_positive, c.rule, c.value
     if value < 0.0:
         is_ahead, rule, value = not is_ahead, MIRRORED[rule], -value
-    if system == "road":
-        note_facing(ctx, c, freespace)
+    if system != "entity":
+        note_facing(ctx, c, freespace, system)
     has_order = direction == "longitudinal" and ctx.can("RelativeClearanceCondition", "1.2")
     if value == 0.0 and not freespace:  # only the order counts
         if not has_order:
@@ -156,8 +158,11 @@ def is_clear(ctx: Context, me: str, other: str, *, ahead: bool) -> xml.ByEntityC
     )
 
 
-def note_facing(ctx: Context, c: Comparison, freespace: bool) -> None:
+def note_facing(ctx: Context, c: Comparison, freespace: bool, system: CoordinateSystem) -> None:
     """Report what a distance along the road depends on: how the other one looks, and its lane."""
+    bends, tool = ctx.roads is not None and ctx.roads.sharpest_bend > 0.0, ctx.profile
+    if bends and system == "lane" and tool.counts_along_roads:
+        ctx.report.doubt(c.name, c.source.span, f"{tool.name} counts along the road, not the lane")
     mine, theirs = (_lane_at_start(ctx, name) for name in (c.actor, c.reference()))
     if ctx.roads is not None and mine and theirs and are_opposed(ctx.roads.map, mine, theirs):
         ctx.report.doubt(
@@ -189,7 +194,7 @@ def _lane_at_start(ctx: Context, name: str) -> LanePosition | None:
 def space_headway(ctx: Context, c: Comparison) -> Groups:
     """From front to front; the XML counts between reference points."""
     shifted = c._replace(value=c.value + overhang(ctx, c.actor, c.reference()))
-    return _signed(ctx, shifted, "longitudinal", False, "road", ahead_is_positive=True)
+    return _signed(ctx, shifted, "longitudinal", False, "lane", ahead_is_positive=True)
 
 
 def overhang(ctx: Context, behind: str, ahead: str) -> float:

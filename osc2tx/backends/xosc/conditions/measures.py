@@ -81,7 +81,7 @@ def _between(ctx: Context, c: Comparison, *, is_ahead: bool, freespace: bool) ->
 
     The reference leads, or follows, where the time is positive.
     """
-    note_facing(ctx, c, freespace)
+    note_facing(ctx, c, freespace, "lane")
     rule, value = c.rule, c.value
     if value < 0.0:
         is_ahead, rule, value = not is_ahead, MIRRORED[rule], -value
@@ -94,7 +94,7 @@ def _between(ctx: Context, c: Comparison, *, is_ahead: bool, freespace: bool) ->
         rule=rule,
         freespace=freespace,
         alongRoute=None if newer else True,
-        coordinateSystem="road" if newer else None,
+        coordinateSystem="lane" if newer else None,
         relativeDistanceType="longitudinal" if newer else None,
     )
     headway = of_entity(behind, condition)

@@ -7,6 +7,7 @@ from math import inf
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.lateral.lanes import lateral
 from osc2tx.backends.xosc.actions.leaf import Change, Leaf, Performance
+from osc2tx.backends.xosc.actions.position.walkers import walk_on
 from osc2tx.backends.xosc.actions.registry import ACTIONS, GLOBAL_ACTIONS, WITHOUT_FORM
 from osc2tx.backends.xosc.actions.speed.courses import ends_evenly, hold_speed, in_steps
 from osc2tx.backends.xosc.actions.user_actions import user_action
@@ -86,6 +87,8 @@ def invoke(builder: StoryboardBuilder, node: ir.Invoke, start: Flow) -> Flow:
         if (member.name, change.domain) in successors:
             cut = ctx.states[member.name]
             ctx.states[member.name] = cut.finished(change.domain).going_on(cut)
+    for onward in walk_on(leaf, performance.changes):
+        builder.add(ctx.names.new(f"{name}_onward"), (onward,), goal, actor=member.name)
     return builder.mark_end(node, ends)
 
 

@@ -74,8 +74,7 @@ def _along_segment(leaf: Leaf, segment: MapSegment, call: Arguments) -> Changes:
         ends = [each._replace(lane=lane.lane) if each.road == lane.road else each for each in ends]
     places = [lane_place(roads, each) for each in ends]
     if leaf.duration is None:
-        name = leaf.member.name
-        leaf.reached = at_place(leaf.ctx, leaf.arguments, name, places[1], ends[1])
+        leaf.reached = at_place(leaf.ctx, leaf.arguments, leaf.member.name, places[1], ends[1])
     waypoints = (xml.Waypoint(xml.Position(each), routeStrategy="shortest") for each in places)
     route = xml.Route(*waypoints, name=leaf.ctx.names.new(f"route_{leaf.event}"), closed=False)
     action = xml.PrivateAction(xml.RoutingAction(xml.AssignRouteAction(route)))

@@ -236,8 +236,7 @@ def _along_road(leaf: Leaf, call: Arguments, distance: float) -> Changes:
         if way is None:
             raise Inexpressible("how far it is from its place is only known during the run")
         return (cover_in_time(leaf, call, way, leaf.duration),)
-    goal = lane_place(roads, place)
-    leaf.reached = at_place(leaf.ctx, call, leaf.member.name, goal, place)
+    leaf.reached = at_place(leaf.ctx, call, leaf.member.name, lane_place(roads, place), place)
     return ()
 
 

@@ -7,10 +7,12 @@ a trajectory takes it across the road.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from itertools import pairwise
 
-from osc2tx.backends.xosc.actions.leaf import Change, Leaf
+from osc2tx.backends.xosc.actions.leaf import Change, Changes, Leaf
 from osc2tx.backends.xosc.actions.position.paths import follow
+from osc2tx.backends.xosc.actions.position.xml_positions import world_position
 from osc2tx.backends.xosc.actions.speed.courses import speed_action
 from osc2tx.backends.xosc.actions.speed.speed_changes import jump_to
 from osc2tx.backends.xosc.entities.cast import PEDESTRIAN
@@ -67,10 +69,18 @@ def stand(leaf: Leaf) -> Change:
     return walk(leaf, course, course.duration)
 
 
+def walk_on(leaf: Leaf, changes: Changes) -> Iterator[xml.PrivateAction]:
+    """Yield how a walker goes on where its way ends: tools would send it along the lane."""
+    state = leaf.ctx.states[leaf.member.name]
+    pose, speed = state.pose, state.known_speed
+    actions = [each for change in changes if change.domain != WAY for each in change.actions]
+    if pose and speed and leaf.member.walks and any(a.find(xml.RoutingAction) for a in actions):
+        yield _straight_on(leaf, pose, course_of_speed(speed, speed, FASTEST, leaf.limits))
+
+
 def _straight_on(leaf: Leaf, start: Pose, course: Profile) -> xml.PrivateAction:
     """Return the action with which a walker goes on along its heading until something else."""
-    keeps_heading = leaf.ctx.profile.walkers_keep_heading and leaf.member.kind == PEDESTRIAN
-    if not keeps_heading:
+    if not (leaf.ctx.profile.walkers_keep_heading and leaf.member.kind == PEDESTRIAN):
         return _trajectory(leaf, start, course)
     goal = course.value(course.duration)
     shape: DynamicsShape = "linear" if course.duration else "step"
@@ -90,15 +100,8 @@ def _trajectory(leaf: Leaf, start: Pose, course: Profile) -> xml.PrivateAction:
     times.append(times[-1] + LONG)
     places = ((time, _ahead(start, _covered(course, time))) for time in times)
     points = [Waypoint(time, place.x, place.y, place.z, place.h) for time, place in places]
-    vertices = [
-        (
-            point.time,
-            xml.WorldPosition(
-                x=round(point.x, 6), y=round(point.y, 6), z=point.z, h=round(start.h, 9)
-            ),
-        )
-        for point in (points if is_read else thinned(points, is_timed=True))
-    ]
+    kept = points if is_read else thinned(points, is_timed=True)
+    vertices = [(p.time, world_position(Pose(p.x, p.y, p.z, start.h))) for p in kept]
     return follow(leaf, vertices, is_timed=True, is_exact=True)
 
 

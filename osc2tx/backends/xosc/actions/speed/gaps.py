@@ -132,10 +132,8 @@ def reach(leaf: Leaf, gap: Gap, *, keeps: bool, missing: float | None = None) ->
         displacement=ALONG[gap.side] if newer else None,
         coordinateSystem="lane" if newer else None,
     )
-    if is_rigid and gap.is_time:
-        leaf.arguments.doubt("a time gap without limits follows each change of a speed at once")
-    elif is_rigid and tool.fits_gaps:
-        leaf.arguments.doubt("a gap is counted between boxes as they stand, which turn in bends")
+    if is_rigid and (gap.is_time or tool.fits_gaps):
+        leaf.arguments.doubt("it fits at once to each change of a speed, and to boxes that turn")
     return leaf.at_open_speed(longitudinal(action), inf if keeps else None)
 
 

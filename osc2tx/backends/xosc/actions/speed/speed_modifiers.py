@@ -22,9 +22,6 @@ from osc2tx.backends.xosc.values.constants import Bounds
 from osc2tx.losses.entries import GENERIC, Inexpressible, Remedy
 from osc2tx.xosc.literals import DynamicsDimension, DynamicsShape
 
-SHAPED = ("shape", "rate_profile", "rate_peak")
-"""Arguments that give a change a course."""
-
 RELATIVE = {"faster_than": 1.0, "slower_than": -1.0, "same_as": 1.0}
 """Argument that names a reference -> sign of the difference to its speed."""
 
@@ -137,7 +134,7 @@ def _relative(leaf: Leaf, call: Arguments, name: str, difference: float) -> Chan
     shape: DynamicsShape = "linear"
     dimension: DynamicsDimension = "rate"
     length = _rate_towards(leaf, call, reference, factor, difference)
-    if any(name in call for name in SHAPED):
+    if any(name in call for name in ("shape", "rate_profile", "rate_peak")):
         reason = (
             "the difference to the speed of another actor has a course of its own in the world, and"
             " a rate in the XML"
