@@ -23,6 +23,7 @@ from itertools import pairwise
 from lxml import etree
 
 from osc2tx.importing.importer import import_document
+from osc2tx.importing.libraries import Library
 from osc2tx.start import collect_rarely
 from osc2tx.xosc import read
 
@@ -168,7 +169,7 @@ def main() -> None:
     collect_rarely()  # as the command line does
     antlr = start_of_antlr()
     print(f"import antlr4: {antlr:.3f} s")
-    import_document(chain(8), "warm.xosc", {})
+    import_document(chain(8), "warm.xosc", Library())
     print(
         f"{'shape':12} {'MB':>6} {'import':>8} {'reader':>7} {'x lxml':>7} {'x antlr4':>9}  growth"
     )
@@ -176,7 +177,7 @@ def main() -> None:
         points = []
         for part in (4, 2, 1):
             data = sized(SHAPES[name], arguments.size * 1e6 / part)
-            seconds = cpu(lambda data=data: import_document(data, "a.xosc", {}))
+            seconds = cpu(lambda data=data: import_document(data, "a.xosc", Library()))
             points.append((len(data), seconds))
         reader = cpu(lambda data=data: read(data))
         lxml = cpu(lambda data=data: etree.fromstring(data), 7)

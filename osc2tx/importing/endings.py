@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Container, Sequence
 
+from osc2tx.importing.dimensions import TIME, literal
 from osc2tx.importing.effects import LATERAL, LONGITUDINAL
 from osc2tx.importing.statements import (
     Call,
@@ -23,6 +24,7 @@ from osc2tx.importing.statements import (
     wait,
 )
 from osc2tx.importing.steps import Branch
+from osc2tx_shared.classes import replace
 
 Waits = list[Statement]
 """What is waited for, one after the other."""
@@ -66,6 +68,17 @@ def _opening(statement: Statement) -> float | None:
         lengths = [_opening(each) for each in statement.members]
         return None if None in lengths else max(filter(None, lengths), default=0.0)
     return 0.0
+
+
+def up_to_end(statement: Statement, at: float | None) -> Statement:
+    """Return what goes on, up to a time (s) at which it may not have come as far; `None`: unknown.
+
+    What is around it would wait for its last member.
+    """
+    if at is None or not is_open(statement) or may_end(statement, at):
+        return statement
+    by = elapsed(literal(round(at, 9), TIME))
+    return replace(statement, until=[*statement.until, by], length=at)
 
 
 def label_of(statement: Statement) -> str:

@@ -21,6 +21,7 @@ from osc2tx.importing.endings import (
     is_over,
     may_end,
     single,
+    up_to_end,
     without_events,
 )
 from osc2tx.importing.libraries import STARTS, Shared
@@ -245,11 +246,8 @@ class _Members:
             # what is waited for in several ways goes on beside what is done up to then
             up_to = self._first_of([said for said in alone if self._inits.lasting(said)], branch)
             later = composed("serial", branch.members[:up_to])
-            content = [
-                *before,
-                composed("parallel", [*beside, later]),
-                *branch.members[up_to:],
-            ]
+            held = [up_to_end(each, seconds([later])) for each in beside]
+            content = [*before, composed("parallel", [*held, later]), *branch.members[up_to:]]
         return self._held(content, [each for each in alone if self._inits.has_path(each)])
 
     def _first_of(self, said: Sequence[str], branch: Branch) -> int:

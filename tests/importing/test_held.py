@@ -1,14 +1,17 @@
 """What vehicles can do, ends of roads, and the names of things."""
 
 import json
+import math
 
 import pytest
 
 from osc2tx.grading.comparison import Recording
 from osc2tx.grading.imports import at_end_of_road
 from osc2tx.grading.runs import Failed
+from osc2tx.importing.endings import up_to_end
 from osc2tx.importing.names import short, snake
 from osc2tx.importing.report import ImportReport, Measured
+from osc2tx.importing.statements import Statement, call, composed
 from tests.importing.documents import at_time, document, event, imported, speed_change
 
 
@@ -76,3 +79,19 @@ def test_an_end_of_a_road_is_told_by_reason_and_place(
     played = Recording(end, {}, {"Ego": [(end, x, 0.0, 20.0)]}, ends={"Ego": end})
     names = {"Ego": "ego", "Other": "other"}
     assert at_end_of_road(Failed(reason, run), played, names, 0.1) == found
+
+
+def test_what_may_not_have_come_as_far_as_it_goes_on_ends_when_the_next_event_is_due() -> None:
+    """A `parallel` would wait for the gap that is closed first."""
+    close = Statement(call("other", "change_space_gap", target="5m"))
+    keep = Statement(call("other", "keep_space_gap"), length=math.inf)
+    gap = composed("serial", [close, keep])
+    assert list(up_to_end(gap, 4.0).lines(0)) == [
+        "serial:",
+        "    other.change_space_gap(target: 5m)",
+        "    other.keep_space_gap()",
+        "with:",
+        "    until elapsed(4s)",
+    ]
+    assert up_to_end(gap, None) is gap
+    assert up_to_end(keep, 4.0) is keep
