@@ -184,6 +184,7 @@ def reading_of(tool: ToolProfile, *, is_lazy: bool = False) -> Reading:
         counts_along_roads=tool.counts_along_roads,
         commands_speeds=tool.commands_speeds,
         fits_gaps=tool.fits_gaps,
+        sends_along_lanes=tool.sends_along_lanes,
         guesses_at_forks=tool.guesses_at_forks,
     )
 

@@ -43,6 +43,8 @@ class ToolProfile:
             that jump, and a time counts at the speed of the reference; in the standard it is along
             the lane, at speeds that the performance allows, and a time counts at the speed of the
             one behind.
+        sends_along_lanes: Without a path, walkers and objects with a speed move along the lane; in
+            the standard they have no lane.
         guesses_at_forks: An entity that changes lanes, or drives against the traffic, where its
             lane forks may take any of the roads.
         ego_property: Value of the property `type` by which it knows the ego vehicle; empty if it
@@ -76,6 +78,7 @@ class ToolProfile:
     counts_along_roads: bool = False
     commands_speeds: bool = False
     fits_gaps: bool = False
+    sends_along_lanes: bool = False
     guesses_at_forks: bool = False
     ego_property: str = ""
     person_model: str = ""
@@ -169,6 +172,7 @@ PROFILES: Mapping[XmlProfile, ToolProfile] = {
         counts_along_roads=True,
         commands_speeds=True,
         fits_gaps=True,
+        sends_along_lanes=True,
         guesses_at_forks=True,
         is_lazy=True,
         needs_lane_range=True,

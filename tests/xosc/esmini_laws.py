@@ -171,3 +171,33 @@ LOOKS_AT_A_GAP_IN_A_BEND = source(
     "curve",
 )
 """The outer lane is longer than the road, along which esmini counts."""
+
+WALKS_A_RELATIVE_WAY = source(
+    [
+        (
+            "walks",
+            "ego: vehicle\nw: person\n" + point("kerb", 100, -5) + """\
+here: pose_3d with:
+    keep(it.position.x == 0m)
+    keep(it.position.y == 0m)
+ahead: pose_3d with:
+    keep(it.position.x == 6m)
+    keep(it.position.y == 0m)
+way: relative_path_pose_3d with:
+    keep(it.points == [here, ahead])
+    keep(it.interpolation == straight_line)
+do parallel:
+    serial:
+        w.walk(duration: 1s) with:
+            position(at_point: kerb, project_on_route: false, at: start)
+            yaw(70deg, at: start)
+            speed(1.5mps)
+        w.replay_path(relative: way, reference: w, transform: object_relative) with:
+            speed(1.5mps)
+END
+""" + _drive("ego", 1, "20m").replace("duration: 2s", "duration: 12s"),
+        )
+    ],
+    "crossing",
+)
+"""Behind the way it goes straight on."""

@@ -29,6 +29,7 @@ from tests.xosc.esmini_laws import (
     PULLS_OUT_FROM_STANDSTILL,
     PUT_AT_THE_START,
     WAITS_FOR_THE_SAME_INSTANT,
+    WALKS_A_RELATIVE_WAY,
 )
 
 CURVATURE, WIDTH = 1.0 / 120.0, 3.5  # of the road "curve" between s = 150 m and 270 m
@@ -176,3 +177,15 @@ def test_a_way_that_is_left_in_a_junction_is_played(tmp_path: Path) -> None:
     """It is left by a change to the own lane, which is looked for from the place on the way."""
     (loss,) = built(tmp_path, LEFT_IN_A_JUNCTION, "esmini").report.losses
     assert loss.reason == FORK
+
+
+@pytest.mark.parametrize("end", ["", " " * 12 + "until elapsed(2s)"], ids=["its_end", "cut"])
+def test_walkers_are_sent_along_the_lane_by_esmini(end: str, tmp_path: Path) -> None:
+    """Where a relative way ends is only known during the run, so that no way leads on."""
+    text = WALKS_A_RELATIVE_WAY.replace("END", end)
+    found = built(tmp_path, text, "esmini", allow_approx=True)
+    assert found.report.measured is not None and found.report.measured.place > 5.0
+    uncut = WALKS_A_RELATIVE_WAY.replace("END", "")
+    by_the_standard = built(tmp_path, uncut, "generic", allow_approx=True)
+    assert by_the_standard.report.measured is not None
+    assert by_the_standard.report.measured.place < 0.2

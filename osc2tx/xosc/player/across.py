@@ -50,7 +50,7 @@ class Offsets:
             run.side = self._scene.side(body, node, "lateral")
             return run
         if body.place is None:
-            if body.kind != "Vehicle":
+            if not body.keeps_lanes:
                 raise Unplayable(f"{body.name} is on no lane")
             body.put(self._scene.map, body.in_lane(self._scene.map), body.here.h)  # off its path
         if node.tag == "LaneOffsetAction":

@@ -73,6 +73,8 @@ class Stage:
             before = run.body.actions.get(domain)
             if before is not None and before is not run:
                 before.done = True
+                if before.way and not run.way and run.body.place is None:
+                    run.body.leave_path(self._scene.map)
             run.body.actions[domain] = run
         if run.length == 0.0:
             self._finish(run)

@@ -52,6 +52,7 @@ class Body:
         stood: Seconds at standstill.
         is_at_end: Its road has ended.
         beyond: Seconds since then.
+        keeps_lanes: Without a path it moves along its lane, not along its heading.
         counts_along_road: Positions relative to it count metres along its road, not along its lane.
         reports_commanded: Its speed without a direction is the one along its axis.
         behind: The towing body, with the metres from its reference point back to the hitch, and
@@ -81,6 +82,7 @@ class Body:
     stood: float = 0.0
     is_at_end: bool = False
     beyond: float = 0.0
+    keeps_lanes: bool = False
     counts_along_road: bool = False
     reports_commanded: bool = False
     behind: tuple[Body, float, float] | None = None
@@ -135,14 +137,24 @@ class Body:
             self.pose, self.place = Pose(pose.x, pose.y, pose.h), place
         else:
             self.pose, self.place = place, None
-            on = road_map.locate(place.x, place.y, heading=place.h, max_distance=0.0)
-            if on is not None and self.kind == "Vehicle":
-                self.place = on
+            if self.keeps_lanes:
+                self.place = self._lane_below(road_map)
         if turned is not None:
             self.pose = self.here._replace(h=turned)
         if self.place is not None:
             off = abs(math.remainder(self.here.h - road_map.pose(self.place).h, math.tau))
             self.along = -1 if off > STRAIGHT else 1
+
+    def _lane_below(self, road_map: RoadMap) -> LanePosition | None:
+        """Return its place in a lane; only who is no vehicle is in one from beside it."""
+        most = 0.0 if self.kind == "Vehicle" else math.inf
+        return road_map.locate(*self.here[:2], heading=self.here.h, max_distance=most)
+
+    def leave_path(self, road_map: RoadMap) -> None:
+        """Go on along the lane from where a path ends, if it keeps to lanes."""
+        place = self._lane_below(road_map) if self.keeps_lanes else None
+        if place is not None:
+            self.put(road_map, place, self.here.h)
 
     # --- motion over one step -----------------------------------------------------------------
 
@@ -264,7 +276,9 @@ def body_of(node: Element) -> Body:
         name: math.inf if performance is None else number(performance, name, math.inf)
         for name in LIMITS
     }
-    return Body(node.said("name"), kind.tag, half + x, half - x, number(size, "width"), limits)
+    ends, width = (half + x, half - x), number(size, "width")
+    is_vehicle = kind.tag == "Vehicle"
+    return Body(node.said("name"), kind.tag, *ends, width, limits, keeps_lanes=is_vehicle)
 
 
 def couple(root: Element, bodies: dict[str, Body]) -> None:

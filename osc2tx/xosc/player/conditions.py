@@ -39,6 +39,7 @@ class Reading:
             lane.
         commands_speeds: A speed without a direction is that along the entity.
         fits_gaps: A gap without limits is fitted in each step, to the space between boxes.
+        sends_along_lanes: Who has no path moves along the lane, walkers and objects as well.
         guesses_at_forks: At a fork, lane changes and driving against traffic may lead anywhere.
     """
 
@@ -49,6 +50,7 @@ class Reading:
     counts_along_roads: bool = False
     commands_speeds: bool = False
     fits_gaps: bool = False
+    sends_along_lanes: bool = False
     guesses_at_forks: bool = False
 
 

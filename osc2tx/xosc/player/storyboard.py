@@ -89,6 +89,7 @@ class Evaluator:
         self.bodies: dict[str, Body] = {}
         for node in self.root.below(xml.ScenarioObject):
             body = body_of(node)
+            body.keeps_lanes = body.keeps_lanes or reading.sends_along_lanes
             body.counts_along_road = reading.counts_along_roads
             body.reports_commanded = reading.commands_speeds
             self.bodies[body.name] = body

@@ -76,7 +76,5 @@ class Ways:
             run.driven += way
             body.pose = on_way(run.way, run.points, run.driven)
             run.done = run.driven >= run.points[-1] - STILL
-        if run.done and body.kind == "Vehicle":  # from here on it keeps its lane
-            place = self._scene.map.locate(*body.pose[:2], heading=body.pose.h, max_distance=0.0)
-            if place is not None:
-                body.put(self._scene.map, place, body.pose.h)
+        if run.done:
+            body.leave_path(self._scene.map)
