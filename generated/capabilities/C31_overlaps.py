@@ -112,6 +112,7 @@ class Overlaps(Scenario):
             "offsets",
             self.ego.change_lane("o1", side="left", duration=4 * s),
             self.other.drive("o2", duration=5 * s),
+            overlap="any",
             start_to_start=1 * s,
         )
 

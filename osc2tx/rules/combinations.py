@@ -118,7 +118,7 @@ def _timing(node: ir.Invoke) -> Timing:
     if node.duration is None:
         return Timing(has_duration=False, end_is_known=None)
     if not isinstance(node.duration, ir.RangeValue):
-        return Timing(has_duration=True, end_is_known=True)
+        return Timing(has_duration=True, end_is_known=True, seconds=ir.constant(node.duration))
     # An end is drawn from a range, unless something else ends the action.
     endless = ir.constant(node.duration.upper) == math.inf
     return Timing(has_duration=True, end_is_known=not (node.until or endless))

@@ -1,9 +1,10 @@
-"""Times that are valid, but probably unintended (§7.3.10)."""
+"""Times that are valid, but probably unintended (§7.3.10, §7.3.13.2)."""
 
 from __future__ import annotations
 
 from osc2tx.analysis.tree_walk import NodesByKind
 from osc2tx.diagnostics import DiagnosticSink
+from osc2tx.diagnostics.fixes import insert_before
 from osc2tx.semantics import SemanticModel
 from osc2tx.semantics.units import to_si
 from osc2tx.syntax import ast
@@ -12,7 +13,7 @@ STEP = 0.05  # s, the default step size of a run
 
 
 def report_times(model: SemanticModel, nodes: NodesByKind, sink: DiagnosticSink) -> None:
-    """Report the `elapsed` conditions of the root file that no run observes as written."""
+    """Report the times of the root file that no run observes as written."""
     for reaction in nodes.of(ast.OnDirective):
         if _elapsed(reaction.event) is not None:
             sink.report(
@@ -23,6 +24,25 @@ def report_times(model: SemanticModel, nodes: NodesByKind, sink: DiagnosticSink)
             )
     for wait in nodes.of(ast.WaitDirective):
         _report_short(model, _elapsed(wait.event), sink)
+    for composition in nodes.of(ast.Composition):
+        _report_offset(composition, sink)
+
+
+def _report_offset(node: ast.Composition, sink: DiagnosticSink) -> None:
+    """Report an offset of starts beside the default overlap, by which members start together."""
+    given = {"overlap" if a.name is None else a.name.text: a for a in node.arguments}
+    offset = given.get("start_to_start")
+    if node.operator is not ast.CompositionOperator.PARALLEL or offset is None:
+        return
+    value = offset.value
+    is_zero = isinstance(value, ast.PhysicalLiteral) and value.value == 0
+    if "overlap" not in given and not is_zero:
+        sink.report(
+            "OSC445",
+            offset.span,
+            "the members of a `parallel` without `overlap` start together; it is taken as `any`",
+            help=insert_before(offset.span, "overlap: any, ", "write `overlap: any` before it"),
+        )
 
 
 def _elapsed(event: ast.EventSpecification) -> ast.Expression | None:

@@ -112,7 +112,7 @@ class BehaviorLowering:
             "until": lower_until(self._ctx, node.with_members),
             "end_comments": node.end_comments,
         }
-        made: ir.Serial | ir.OneOf | ir.Parallel
+        made: ir.Composition
         match node.operator:
             case ast.CompositionOperator.SERIAL:
                 made = ir.Serial(**common)
@@ -125,6 +125,7 @@ class BehaviorLowering:
                     start_to_start=self._time(arguments.get("start_to_start")),
                     end_to_end=self._time(arguments.get("end_to_end")),
                 )
+        made = self._standing.with_edges(node, made)
         made = with_open_duration(self._ctx, made, f"{name_of_member(node)}.duration", node)
         name = f"{name_of_member(node)} with reactions"
         return self._standing.attached_to(node).around(made, name)

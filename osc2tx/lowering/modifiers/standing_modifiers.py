@@ -14,6 +14,7 @@ from osc2tx.lowering.behavior.composed_behaviors import actor_type_of, is_compos
 from osc2tx.lowering.behavior.reactions import Attached
 from osc2tx.lowering.constraints.constraints import ConstraintLowering
 from osc2tx.lowering.context import LoweringContext, Receiver
+from osc2tx.lowering.modifiers.composition_modifiers import with_edge
 from osc2tx.lowering.modifiers.modifiers import is_override
 from osc2tx.lowering.modifiers.user_modifiers import Applied, ModifierLowering
 from osc2tx.lowering.placement.initial_placement import can_place, owner_of
@@ -72,9 +73,24 @@ class StandingModifiers:
         self._around.pop()
         for standing in self._of_composition(node):
             for applied in self._lower(standing):
-                if applied.call.at == "start" or standing.node not in self._used:
+                if applied.call.at == "all" and standing.node not in self._used:
                     self._refuse(standing.node, applied.call)
                     break
+
+    def with_edges(self, node: ast.Composition, made: ir.Composition) -> ir.Composition:
+        """Return a composition with its modifiers that hold at its start or its end alone."""
+        for standing in self._of_composition(node):
+            for applied in self._lower(standing):
+                if applied.call.at == "all":
+                    continue
+                target = applied.target
+                is_known = target is None or target.origin != "user"
+                changed = with_edge(made, applied.call, _name_of(applied)) if is_known else None
+                if not isinstance(changed, ir.Serial | ir.Parallel | ir.OneOf):
+                    self._refuse(standing.node, applied.call)
+                    break
+                made = changed
+        return made
 
     def attached_to(self, node: ast.Composition) -> Attached:
         """Return the reactions that the modifiers of a composition attach to it."""
@@ -117,9 +133,10 @@ class StandingModifiers:
             if self._is_start(standing.node):
                 continue
             for applied in self._lower(standing):
-                whose = applied.actor
-                name = whose.name if isinstance(whose, ir.FieldRef) else "actor"
-                if name == actor.name and stands(applied.call) and _fits(applied, action):
+                if standing.composition is not None and applied.call.at != "all":
+                    continue
+                is_meant = _name_of(applied) == actor.name and _fits(applied, action)
+                if is_meant and stands(applied.call):
                     self._used.add(standing.node)
                     yield standing, applied.call
 
@@ -217,9 +234,9 @@ class StandingModifiers:
             "OSC508",
             node.span,
             (
-                f"modifier `{call.name}` of a composition is not supported"
-                if call.at == "start"
-                else f"no action in this composition is modified by `{call.name}`"
+                f"no action in this composition is modified by `{call.name}`"
+                if call.at == "all"
+                else f"no action surely {call.at}s with this composition, to meet `{call.name}`"
             ),
             help="apply it in the `with` of the actions in it",
         )
@@ -227,6 +244,10 @@ class StandingModifiers:
 
 def _member(node: ast.ModifierApplication) -> Standing:
     return Standing(node, node.actor.span.text if node.actor else "actor", None)
+
+
+def _name_of(applied: Applied) -> str:
+    return applied.actor.name if isinstance(applied.actor, ir.FieldRef) else "actor"
 
 
 def stands(call: ir.ModifierCall) -> bool:

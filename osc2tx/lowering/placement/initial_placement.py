@@ -19,6 +19,7 @@ from osc2tx.lowering.behavior.time_expressions import is_range
 from osc2tx.lowering.context import LoweringContext
 from osc2tx.lowering.placement.carla_paths import START
 from osc2tx.lowering.placement.implied_starts import FirstAction, implied_starts
+from osc2tx.lowering.placement.later_starts import with_any_start
 from osc2tx.lowering.values.shape_arguments import first_value, states_start
 from osc2tx_shared.classes import dataclass, replace
 
@@ -184,6 +185,8 @@ class PlacementLowering:
         if isinstance(node.actor, ir.FieldRef):
             actor = node.actor.name
             node = self._begin_on_path(node, actor)
+            if actor in self._first:
+                node = with_any_start(self._ctx, node)
             self._imply(node, actor, time, is_later=True)
         return node
 

@@ -23,6 +23,9 @@ CONTRADICTIONS = ((("movement_mode", "monotonous"), ("option", "prefer_non_physi
 RANGES = ("speed_range", "acceleration_range", "distance_range", "time_range", "angle_range")
 """Parameters for the admissible interval of a quantity (§8.9.1.4)."""
 
+REFERENCES = ("faster_than", "slower_than", "same_as", "factor")
+"""Parameters that relate a speed to that of another actor."""
+
 STARTING = (none_of("shape", when=["at"], values=["start"]),)
 """What says nothing about a start, in any modifier."""
 
@@ -106,10 +109,12 @@ class Timing:
     Attributes:
         has_duration: Whether it has a duration of its own.
         end_is_known: Whether it is known in advance when it ends; None if only the run tells.
+        seconds: Its duration, if it is a known number.
     """
 
     has_duration: bool
     end_is_known: bool | None
+    seconds: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -231,7 +236,15 @@ class _Action(Generic[CallT]):
         rates = self._named("acceleration")
         if not self._arrives():
             rates = [*self._speeds(), *rates]
-        yield from ((rate, way) for rate in rates for way in self._named("distance"))
+        ways = self._named("distance")
+        yield from ((r, way) for r in rates for way in ways if not self._agree(r, way))
+
+    def _agree(self, rate: CallT, way: CallT) -> bool:
+        """Whether a speed that is kept covers the distance in the duration (§8.9.4, §8.9.13)."""
+        speed, distance = _plain(rate, "speed"), _plain(way, "distance")
+        if speed is None or distance is None or self.timing.seconds is None:
+            return False
+        return rate.name == "speed" and abs(speed * self.timing.seconds - distance) <= 1e-6
 
     def _has_room_for_place(self) -> bool:
         """Whether there can be a place beside speeds and accelerations: at the end, or in a range.
@@ -303,6 +316,14 @@ class _Action(Generic[CallT]):
     def _speeds(self) -> list[CallT]:
         """Return the speeds along the road."""
         return [call for call in self._named("speed") if not is_across(call, self.known)]
+
+
+def _plain(call: Call, name: str) -> float | None:
+    """Return the one number that a modifier states for the whole action."""
+    others = any(each in call.given for each in (*RANGES, *REFERENCES, "shape", "direction"))
+    bounds = call.given.bounds(name) if name in call.given else None
+    is_plain = call.at == "all" and not others and bounds is not None and bounds[0] == bounds[1]
+    return bounds[0] if bounds is not None and is_plain else None
 
 
 def _is_range(call: Call) -> bool:

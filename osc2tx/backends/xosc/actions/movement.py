@@ -6,6 +6,7 @@ and the like add theirs in files of their own (`registry`).
 
 from __future__ import annotations
 
+from osc2tx import ir
 from osc2tx.backends.xosc.actions.leaf import Change, Ending, Leaf, Performance
 from osc2tx.backends.xosc.actions.position.walkers import UNKNOWN, stand, walk
 from osc2tx.backends.xosc.actions.registry import action, apply_modifiers, to_goal
@@ -26,8 +27,8 @@ def _drive(leaf: Leaf) -> Performance:
         return _walk(leaf)
     changes = apply_modifiers(leaf)
     _note_open_speed(leaf)
-    goals = (m for m in leaf.node.modifiers if m.at == "end" or m.name.startswith("along"))
-    ends: Ending = "goal" if leaf.duration is None and any(goals) else "open"
+    goals = [name for name in ir.goals_of(leaf.node) if name != "distance"]
+    ends: Ending = "goal" if leaf.duration is None and goals else "open"
     return Performance(changes, ends, time_to_cover(leaf), leaf.reached)
 
 

@@ -17,7 +17,7 @@ from osc2tx_runtime.world.commands import (
     ReplayCourse,
     ReplayTrajectory,
 )
-from osc2tx_runtime.world.geometry.curve import Curve, turn_between
+from osc2tx_runtime.world.geometry.curve import Curve, Vector, turn_between
 from osc2tx_runtime.world.state import ActorState
 
 _FAR = 100.0  # greatest distance (m) to a path
@@ -79,6 +79,16 @@ def trajectory_commands(
     _check_yaw(curve, curve.knots)
     _check_way_to(here, curve, low)
     return {LONGITUDINAL: KeepSchedule(curve, begin, end), LATERAL: FollowCourse(curve, low, high)}
+
+
+def begin_of(command: Command) -> Vector | None:
+    """The point at which a replay begins; None for other commands."""
+    match command:
+        case ReplayCourse(curve=curve, begin=begin):
+            return curve.point(curve.at_length(begin))
+        case ReplayTrajectory(curve=curve, begin=begin):
+            return curve.point(begin)
+    return None
 
 
 def _check_yaw(curve: Curve, places: tuple[float, ...]) -> None:

@@ -35,6 +35,8 @@ def _on_line(leaf: Leaf) -> Performance:
     if "relative" in arguments:
         mine: Constant = Named(leaf.member.actor.name)
         line = relative_line(leaf.ctx, arguments.get("relative"), transform, reference or mine)
+        if leaf.is_start and may_jump(leaf) and line.reference != leaf.member.name:
+            raise Inexpressible("a run fails unless its actor starts where the replay begins")
     else:
         line = line_of(leaf.ctx, arguments.get("absolute"))
     if leaf.duration is not None:

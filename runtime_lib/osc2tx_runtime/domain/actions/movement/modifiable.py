@@ -1,9 +1,10 @@
 """The base of actions whose motion modifiers complete (DSL 8.9.1).
 
 `ego.follow_path(way) with: speed(30kph)`: the action controls the pose, the modifier the speed.
-`at: all` holds (or is approached and then held) from the start of the action; `at: end` is reached
-exactly at the end of its duration or of the phase it ends with, else it ends the action; `at:
-start` has to hold when the action starts, or is set instantly if physics need not hold.
+`at: all` holds (or is approached and then held) from the start of the action, which the end of a
+lane change ends if nothing else does; `at: end` is reached exactly at the end of its duration or of
+the phase it ends with, else it ends the action; `at: start` has to hold when the action starts, or
+is set instantly if physics need not hold.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from osc2tx_runtime.domain.map.roads_and_lanes import Route
 from osc2tx_runtime.domain.modifiers import (
     Along,
     AvoidCollisions,
+    ChangeLane,
     Distance,
     Lane,
     Lateral,
@@ -95,13 +97,12 @@ class ModifiableAction(ModifiedMotion):
     def _bounds(self, modifier: Modifier) -> bool:
         """Whether a modifier states a goal.
 
-        The end of a route only ends an action that nothing else ends.
+        The end of a route or of a lane change only ends an action without a duration.
         """
         if getattr(modifier, "at", "all") == "end":
             return True
-        return modifier.facts.bounds and not (
-            self.duration is not None and self._is_route(modifier)
-        )
+        yields = isinstance(modifier, ChangeLane) or self._is_route(modifier)
+        return modifier.facts.bounds and not (self.duration is not None and yields)
 
     def _is_route(self, modifier: Modifier) -> bool:
         """Whether a modifier states a route of the map, and not a path."""
@@ -151,8 +152,12 @@ class ModifiableAction(ModifiedMotion):
         if self.has_goal:
             is_strict = not kwargs["context"].first_come
             goals = [each for each in self.modifiers if self._bounds(each)]
-            self._phase = None if self.follows_path else phase_of(self, strict=is_strict)
             self._is_held = lasts_until_event(self, goals, strict=is_strict)
+            phase = None if self.follows_path else phase_of(self, strict=is_strict)
+            if all(isinstance(each, ChangeLane) and each.at == "all" for each in goals):
+                self._is_held |= phase is not None
+            else:
+                self._phase = phase
         if self._phase is not None or self._is_held:
             self.open_ended = True
         check_modifiers(self)
@@ -308,8 +313,8 @@ class ModifiableAction(ModifiedMotion):
     def _ends_with(self, slot: str) -> bool:
         """Whether the command in a slot belongs to the goal."""
         for modifier in self.modifiers:
-            is_way = isinstance(modifier, PATH_SHAPERS) and self._bounds(modifier)
-            lasting = getattr(modifier, "at", "all") == "end" or is_way
+            is_course = isinstance(modifier, (*PATH_SHAPERS, ChangeLane)) and self._bounds(modifier)
+            lasting = getattr(modifier, "at", "all") == "end" or is_course
             looked_at = self._watched is not None or self._to_cover is not None
             if looked_at and isinstance(modifier, Position):
                 continue  # on its own

@@ -23,7 +23,9 @@ def check_modifiers(action: ModifiedMotion) -> None:
         ScenarioError: A modifier is given twice, or without one that it requires.
     """
     calls = [ModifierCall(modifier) for modifier in action.modifiers]
-    timing = Timing(action.duration is not None, action.end_is_known)
+    duration = action.duration
+    seconds = float(duration) if isinstance(duration, int | float) else None
+    timing = Timing(duration is not None, action.end_is_known, seconds)
     for clash in clashes(calls, RULES, timing):
         error = _error(action.action_name, clash)
         error.source = action.source or None

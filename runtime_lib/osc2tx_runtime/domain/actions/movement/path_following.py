@@ -6,7 +6,8 @@ the speed is free: it remains, or another action controls it; from standstill it
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import math
+from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, ClassVar, Generic, TypeVar, Unpack
 
 from osc2tx_runtime.domain.modifiers import (
@@ -27,7 +28,12 @@ from osc2tx_runtime.domain.paths.path_values import (
 )
 from osc2tx_runtime.domain.paths.relative_paths import absolute
 from osc2tx_runtime.domain.placing.pose_resolution import one_of_kind
-from osc2tx_runtime.domain.planning.path_commands import path_command, trajectory_commands
+from osc2tx_runtime.domain.planning.motion_action import Refused
+from osc2tx_runtime.domain.planning.path_commands import (
+    begin_of,
+    path_command,
+    trajectory_commands,
+)
 from osc2tx_runtime.domain.points_and_poses import Pose
 from osc2tx_runtime.enums import RelativeTransform
 from osc2tx_runtime.language.actions.action import ActionOptions
@@ -41,14 +47,35 @@ if TYPE_CHECKING:
     from osc2tx_runtime.domain.actors import MovableObject
     from osc2tx_runtime.domain.objects.physical_objects import PhysicalObject
 
+_AWAY = 0.5  # m between the start of the actor and that of its course
+
 
 class CourseAction(ModifiableAction):
     """An action along a path that may prove impossible when it starts."""
 
     def on_start(self) -> None:
         """Commands the course."""
-        for slot, command in self.commands().items():
+        commands = self.commands()
+        if self.context.step == 0:
+            self._check_start(commands.values())
+        for slot, command in commands.items():
             self.command(slot, command)
+
+    def _check_start(self, commands: Iterable[Command]) -> None:
+        """Check that the actor of a replay starts the run where the replay begins.
+
+        Later it is set there, as the standard allows (DSL 8.8.2.8).
+
+        Raises:
+            Refused: It starts elsewhere.
+        """
+        for x, y, _ in filter(None, map(begin_of, commands)):
+            far = math.hypot(x - self.here.x, y - self.here.y)
+            if far > _AWAY:
+                raise Refused(
+                    f"its course begins at ({x:.1f}, {y:.1f}), {far:.1f} m from where it starts;"
+                    " state its position at the start"
+                )
 
     def commands(self) -> dict[str, Command]:
         """The command for each slot.

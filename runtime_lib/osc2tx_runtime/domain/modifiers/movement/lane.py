@@ -175,6 +175,7 @@ class Lateral(MovementModifier):
     topics=(LANE,),
     no_start="cannot change the lane at the start",
     lanes_only=True,
+    bounds=True,
     needs=("lanes",),
 )
 @dataclass(frozen=True, slots=True)

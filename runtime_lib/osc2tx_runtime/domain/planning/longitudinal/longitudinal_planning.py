@@ -85,7 +85,9 @@ def speed_command(action: ModifiedMotion) -> Command | None:
     if position is not None and position.reference is not None and not counted:
         return _gap(action, position)
     aims = position is not None or (speed_at_end(action) is not None and not _says_how(action))
-    if action.duration is not None or action.end_is_known or (counted and aims):
+    is_steady = action.duration is not None and any(m.at == "all" for m in speeds_of(action))
+    is_timed = action.duration is not None or action.end_is_known or (counted and aims)
+    if is_timed and not (counted and is_steady):
         way = way_to_goal(action)
         if way is not None:
             return _in_time(action, *way)
