@@ -1,4 +1,4 @@
-"""Applies the rules to all calls, durations and periods of a program."""
+"""Applies the rules to all objects, calls, durations and periods of a program."""
 
 from __future__ import annotations
 
@@ -8,13 +8,16 @@ from osc2tx import ir
 from osc2tx.diagnostics import DiagnosticSink
 from osc2tx.rules.calls import CallCheck
 from osc2tx.rules.given import domains_of
+from osc2tx.rules.objects import ObjectCheck
 
 
 def check_rules(module: ir.Module, sink: DiagnosticSink) -> None:
-    """Report the calls and times in a program that break a rule of the library."""
+    """Report the objects, calls and times in a program that break a rule of the library."""
+    objects = ObjectCheck({each.name: each for each in module.types}, sink)
     for scenario in (*module.bases, *module.scenarios):
         check = _Check(scenario.declarations, sink)
         for declaration in scenario.declarations:
+            objects.check(declaration)
             check.triggers(_triggers_of(declaration))
         for placement in scenario.placements:
             for modifier in placement.modifiers:

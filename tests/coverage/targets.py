@@ -9,8 +9,10 @@ from __future__ import annotations
 from typing import Protocol
 
 from osc2tx.backends.py_trees.naming import identifier
-from osc2tx.backends.py_trees.runtime_api import STRUCT_CLASSES
 from osc2tx.catalogue import catalogue, object_tables
+from osc2tx.catalogue.constructors import (
+    STRUCT_CLASSES,
+)
 from tests.coverage.library import Item, heirs
 from tests.coverage.sources import Source
 

@@ -17,8 +17,10 @@ from osc2tx.backends.py_trees.code import (
 from osc2tx.backends.py_trees.list_operations import element_name, list_operation
 from osc2tx.backends.py_trees.modifier_calls import parameter_name
 from osc2tx.backends.py_trees.naming import NameTable, event_parameter, identifier
-from osc2tx.backends.py_trees.runtime_api import ACTOR_CLASSES
 from osc2tx.backends.py_trees.type_methods import TypeMethods
+from osc2tx.catalogue.constructors import (
+    ACTOR_CLASSES,
+)
 from osc2tx_shared.classes import replace
 
 COMPARISONS = {"==": "==", "!=": "!=", "<": "<", "<=": "<=", ">": ">", ">=": ">="}

@@ -9,14 +9,14 @@ from osc2tx.backends.py_trees.code import Level, PyExpr, PyName, name_expression
 from osc2tx.backends.py_trees.comments import comments
 from osc2tx.backends.py_trees.expressions import ExpressionWriter
 from osc2tx.backends.py_trees.naming import identifier
-from osc2tx.backends.py_trees.runtime_api import (
+from osc2tx.backends.py_trees.runtime_api import text_class
+from osc2tx.backends.py_trees.type_table import TypeTable
+from osc2tx.backends.py_trees.view import ArgumentView, CallView
+from osc2tx.catalogue.constructors import (
     constructor_path,
     list_element,
     nested_object,
-    text_class,
 )
-from osc2tx.backends.py_trees.type_table import TypeTable
-from osc2tx.backends.py_trees.view import ArgumentView, CallView
 from osc2tx_shared.classes import replace
 
 

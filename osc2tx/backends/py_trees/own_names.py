@@ -10,16 +10,15 @@ from typing import TypeAlias
 
 from osc2tx import ir
 from osc2tx.backends.py_trees.naming import NameTable, class_name, identifier
-from osc2tx.backends.py_trees.runtime_api import (
-    ACTOR_CLASSES,
-    ACTOR_FIELDS,
-    PHYSICAL_TYPES,
-    STRUCT_CLASSES,
-)
+from osc2tx.backends.py_trees.runtime_api import ACTOR_FIELDS, PHYSICAL_TYPES
 from osc2tx.backends.py_trees.type_table import class_key, enum_key
 from osc2tx.backends.py_trees.user_actions import action_key, has_function, protocol_key
 from osc2tx.backends.py_trees.uses import LIBRARY
 from osc2tx.catalogue import catalogue, object_tables
+from osc2tx.catalogue.constructors import (
+    ACTOR_CLASSES,
+    STRUCT_CLASSES,
+)
 
 Declared: TypeAlias = (
     ir.AbstractScenario | ir.UserType | ir.UserEnum | ir.UserAction | ir.UserModifier

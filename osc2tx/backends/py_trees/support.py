@@ -7,10 +7,13 @@ from pathlib import PurePosixPath
 
 from osc2tx import ir
 from osc2tx.backends.py_trees.naming import identifier, module_name
-from osc2tx.backends.py_trees.object_support import ObjectCheck
 from osc2tx.backends.py_trees.own_names import declarations, has_module, is_own
-from osc2tx.backends.py_trees.runtime_api import ACTOR_CLASSES, ANNOTATIONS, STRUCT_CLASSES
+from osc2tx.backends.py_trees.runtime_api import ANNOTATIONS
 from osc2tx.catalogue import object_tables
+from osc2tx.catalogue.constructors import (
+    ACTOR_CLASSES,
+    STRUCT_CLASSES,
+)
 from osc2tx.diagnostics import DiagnosticSink, Span
 from osc2tx.support.python_modules import is_taken
 
@@ -131,7 +134,6 @@ class _SupportCheck:
         if isinstance(declaration, ir.Struct) and declaration.value is not None:
             self.expressions((declaration.value,))
             return
-        ObjectCheck(self.own, self.objects, self.sink).check(declaration)
         self.expressions(value.value for value in declaration.values)
 
     def behavior(self, node: ir.Behavior) -> None:

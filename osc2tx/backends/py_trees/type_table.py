@@ -9,20 +9,22 @@ from osc2tx.backends.py_trees.code import Level, PyExpr, PyName, literal, name_e
 from osc2tx.backends.py_trees.naming import NameTable, class_name, identifier
 from osc2tx.backends.py_trees.runtime_api import (
     ABSTRACT_TYPES,
-    ACTOR_CLASSES,
     ACTOR_FIELDS,
     ANNOTATIONS,
     PHYSICAL_TYPES,
-    STRUCT_CLASSES,
 )
 from osc2tx.backends.py_trees.uses import Uses
 from osc2tx.catalogue import object_tables
+from osc2tx.catalogue.constructors import (
+    ACTOR_CLASSES,
+    ROOT,
+    STRUCT_CLASSES,
+)
 
 _CONCRETE = {**ACTOR_CLASSES, **STRUCT_CLASSES}
 CLASSES = {**_CONCRETE, **{name: _CONCRETE[above] for name, above in ABSTRACT_TYPES.items()}}
 
 # The type that all actors derive from.
-ROOT = "osc_actor"
 
 
 def class_key(type_: str) -> str:

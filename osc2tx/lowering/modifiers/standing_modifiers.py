@@ -24,6 +24,9 @@ from osc2tx.semantics.types import ActorType
 from osc2tx.syntax import ast
 from osc2tx_shared.classes import dataclass
 
+_COMPARING = ("distance", "change_lane", "change_speed")
+"""Modifiers that compare the end with the start."""
+
 
 @dataclass(frozen=True, slots=True)
 class Standing:
@@ -83,6 +86,10 @@ class StandingModifiers:
             for applied in self._lower(standing):
                 if applied.call.at == "all":
                     continue
+                acting = [n for n in ir.invocations(made) if n.actor_name == _name_of(applied)]
+                if applied.call.name in _COMPARING and len(acting) > 1:
+                    self._refuse_whole(standing.node, applied.call)
+                    break
                 target = applied.target
                 is_known = target is None or target.origin != "user"
                 changed = with_edge(made, applied.call, _name_of(applied)) if is_known else None
@@ -116,13 +123,16 @@ class StandingModifiers:
         """Refuse what one action alone has to meet, if several in a row would meet it each."""
         whose = (node, call.name, actor.name if isinstance(actor, ir.FieldRef) else "")
         if whose in self._whole:
-            self._ctx.unsupported(
-                "OSC508",
-                node.span,
-                f"`{call.name}` is about all that several actions do together",
-                help="apply it in the `with` of one of them, or leave one action",
-            )
+            self._refuse_whole(node, call)
         self._whole.add(whose)
+
+    def _refuse_whole(self, node: ast.ModifierApplication, call: ir.ModifierCall) -> None:
+        self._ctx.unsupported(
+            "OSC508",
+            node.span,
+            f"`{call.name}` is about all that several actions do together",
+            help="apply it in the `with` of one of them, or leave one action",
+        )
 
     def _calls(
         self, actor: ir.Expression | None, action: sym.BehaviorSymbol | None
@@ -260,9 +270,7 @@ def _is_of_the_whole(call: ir.ModifierCall) -> bool:
 
     Each of several actions would meet it: twice the distance, twice the number of lanes.
     """
-    return call.name in ("distance", "change_lane", "change_speed") or (
-        call.name == "position" and call.at == "end"
-    )
+    return call.name in _COMPARING or (call.name == "position" and call.at == "end")
 
 
 def _fits(applied: Applied, action: sym.BehaviorSymbol | None) -> bool:

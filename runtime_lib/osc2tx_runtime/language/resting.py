@@ -38,8 +38,8 @@ class Resting:
         self._with.setdefault(actor_id, {})[node] = None
 
     def until(self, node: Behaviour, step: int) -> None:
-        """Wake a node at a step."""
-        self._until[node] = step
+        """Wake a node at a step, or at an earlier one that it has asked for."""
+        self._until[node] = min(step, self._until.get(node, NEVER))
         self._next = min(self._next, step)
 
     def unless(self, node: Behaviour, conditions: Sequence[Callable[[], bool]]) -> None:

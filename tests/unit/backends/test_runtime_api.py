@@ -14,15 +14,14 @@ from osc2tx.backends.py_trees.naming import (
     class_name,
     identifier,
 )
-from osc2tx.backends.py_trees.runtime_api import (
-    ABSTRACT_TYPES,
+from osc2tx.backends.py_trees.runtime_api import ABSTRACT_TYPES, API_LEVEL
+from osc2tx.catalogue import object_tables
+from osc2tx.catalogue.constructors import (
     ACTOR_CLASSES,
-    API_LEVEL,
     FLAT_MEMBERS,
     NESTED_OBJECTS,
     STRUCT_CLASSES,
 )
-from osc2tx.catalogue import object_tables
 from osc2tx.semantics.declarations.library import shared_library
 from osc2tx.semantics.symbols import ActorSymbol, EnumSymbol, FieldSymbol, StructSymbol
 from osc2tx.semantics.types import StructType

@@ -56,7 +56,8 @@ def test_what_the_catalogue_says_the_standard_says() -> None:
     assert ends["movable_object.change_speed"] == "goal"
     assert ends["vehicle.connect_trailer"] == ends["movable_object.assign_speed"] == "at_once"
     assert {name for name, entry in modifiers.items() if entry.bounds} == {
-        *("along", "along_trajectory", "distance")  # §8.9.11 to §8.9.13
+        *("along", "along_trajectory", "distance"),  # §8.9.11 to §8.9.13
+        "change_lane",  # §8.9.15
     }
 
 

@@ -110,6 +110,7 @@ class Lateral(MovementModifier):
     shaped_by = AnyLateralShape
     rules = (
         at_most_one("distance", "distance_range"),
+        at_least_one("distance", "distance_range", "shape"),
         at_least_one("side_of", when=["measure_by"], values=["closest"]),
     )
     distance: Value | None = None

@@ -1,20 +1,20 @@
-"""Refuses objects, actors and values of structs, that the runtime library cannot make."""
+"""Refuses objects, actors and values of structs, that no world can make as they are declared."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
 from osc2tx import ir
-from osc2tx.backends.py_trees.runtime_api import (
+from osc2tx.catalogue import object_tables
+from osc2tx.catalogue.constructors import (
     ACTOR_CLASSES,
+    ROOT,
     STRUCT_CLASSES,
     constructor_path,
     is_completed,
     list_element,
     nested_object,
 )
-from osc2tx.backends.py_trees.type_table import ROOT
-from osc2tx.catalogue import ObjectTables
 from osc2tx.diagnostics import DiagnosticSink, Span
 from osc2tx_shared.classes import dataclass, replace
 
@@ -40,19 +40,21 @@ class ObjectCheck:
 
     Args:
         own: The module's own types.
-        objects: The constructors of the runtime.
         sink: Receives reports.
     """
 
-    def __init__(
-        self, own: Mapping[str, ir.UserType], objects: ObjectTables, sink: DiagnosticSink
-    ) -> None:
+    def __init__(self, own: Mapping[str, ir.UserType], sink: DiagnosticSink) -> None:
         self._own = own
-        self._tables = objects
+        self._tables = object_tables()
         self._sink = sink
 
-    def check(self, declaration: ir.Actor | ir.Struct) -> None:
+    def check(self, declaration: ir.Declaration) -> None:
         """Check a declared object that is no other value as a whole."""
+        match declaration:
+            case ir.Actor(is_given=False) | ir.Struct(value=None):
+                pass
+            case _:
+                return
         is_actor = isinstance(declaration, ir.Actor)
         known: Mapping[str, str] = ACTOR_CLASSES if is_actor else STRUCT_CLASSES
         self._object(
