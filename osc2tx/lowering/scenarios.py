@@ -42,6 +42,7 @@ from osc2tx.lowering.modifiers.modifier_functions import lower_modifiers, own_mo
 from osc2tx.lowering.modifiers.override_modifiers import lower_overrides
 from osc2tx.lowering.modifiers.standing_modifiers import StandingModifiers
 from osc2tx.lowering.placement.initial_placement import PlacementLowering, merged
+from osc2tx.lowering.placement.later_starts import with_any_start
 from osc2tx.lowering.placement.member_placements import member_placements
 from osc2tx.lowering.unsupported_members import report_unsupported_members
 from osc2tx.lowering.values.expressions import lower_expression
@@ -270,14 +271,19 @@ def _lower_scenario(
     if tree is None and has_behavior(scenario):
         return None
     times = TimeSystem(ctx, declarations, _solvable(ctx, scenario), scenario_of)
+    starts: PlacementLowering | None = None
     body: ir.Behavior | None = None
     placements: tuple[ir.Placement, ...] = ()
     if tree is not None:
         timed = tree if first_come else times.solve(tree)
-        placements, body = PlacementLowering(ctx, scenario_of).split(labelled_once(timed))
+        starts = PlacementLowering(ctx, scenario_of)
+        placements, body = starts.split(labelled_once(timed))
         body = body or nothing_left(scenario)
     left_over = constraints.left_over()
     coverage = lower_coverage(ctx, scenario)
+    if starts is not None and body is not None:
+        others = (declarations, methods, placements, left_over, coverage, times.constraints)
+        body = with_any_start(ctx, body, frozenset(starts.later_ranges), others)
     object_variables = lowering.lower_object_variables()
     type_methods = lowering.lower_type_methods()
     global_parameters = shared.lower()

@@ -19,7 +19,7 @@ from osc2tx.lowering.behavior.time_expressions import is_range
 from osc2tx.lowering.context import LoweringContext
 from osc2tx.lowering.placement.carla_paths import START
 from osc2tx.lowering.placement.implied_starts import FirstAction, implied_starts
-from osc2tx.lowering.placement.later_starts import with_any_start
+from osc2tx.lowering.placement.later_starts import drawn_starts
 from osc2tx.lowering.values.shape_arguments import first_value, states_start
 from osc2tx_shared.classes import dataclass, replace
 
@@ -43,7 +43,11 @@ class _Found:
 
 
 class PlacementLowering:
-    """Splits a tree into initial placement and the rest of the tree."""
+    """Splits a tree into initial placement and the rest of the tree.
+
+    Attributes:
+        later_ranges: Drawn values that actors in motion have to meet at the start of an action.
+    """
 
     def __init__(self, ctx: LoweringContext, scenario_of: ScenarioOf) -> None:
         """Take the place for complaints, and what gives the scenarios that are invoked."""
@@ -51,6 +55,7 @@ class PlacementLowering:
         self._found: dict[str, _Found] = {}
         self._first: dict[str, FirstAction] = {}
         self._in_one_of: bool = False
+        self.later_ranges: set[str] = set()
 
     def split(self, body: ir.Behavior) -> tuple[tuple[ir.Placement, ...], ir.Behavior | None]:
         """Return the placements in source order, and the tree without them."""
@@ -186,7 +191,7 @@ class PlacementLowering:
             actor = node.actor.name
             node = self._begin_on_path(node, actor)
             if actor in self._first:
-                node = with_any_start(self._ctx, node)
+                self.later_ranges.update(drawn_starts(self._ctx, node))
             self._imply(node, actor, time, is_later=True)
         return node
 
