@@ -103,8 +103,8 @@ def test_a_range_is_one_value_for_all(load: Load, tmp_path: Path) -> None:
             "no action in this composition is modified by `speed`",
         ),
         (
-            f"{TREE}    with:\n        v.speed(10mps, at: start)\n",
-            "modifier `speed` of a composition is not supported",
+            f"    u: vehicle\n{TREE}    with:\n        u.speed(10mps, at: start)\n",
+            "no action surely starts with this composition, to meet `speed`",
         ),
     ],
 )

@@ -122,6 +122,7 @@ class ExecutionContext:
         resting: Nodes of the tree without work until they are woken.
         monitors: Checks the phases of actions; None: no checks.
         entries: Actors that enter; None without any.
+        open_starts: Actors whose position at the start the scenario leaves open.
     """
 
     def __init__(
@@ -153,6 +154,7 @@ class ExecutionContext:
         self.late = 0.0
         self.snapshot = 0
         self.is_placing = False
+        self.open_starts: frozenset[str] = frozenset()
         self.settled = False
         self.random = random.Random(self.settings.seed)
         self.slots = Slots()

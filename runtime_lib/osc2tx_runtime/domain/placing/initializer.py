@@ -66,6 +66,7 @@ class ScenarioInitializer(StartRoom[ActorStart]):
         starts = self._starts([p for p in placements if not isinstance(p.actor, Map)])
         for start in starts:
             self._world.add(start.actor.spec())
+        self._context.open_starts = frozenset(s.id for s in starts if not s.has_place)
         spawned = self._context.settings.spawn
         for start in starts:
             if start.rank == 2 and start.id in spawned:

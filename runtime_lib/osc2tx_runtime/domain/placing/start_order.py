@@ -70,6 +70,11 @@ class ActorStart:
         return self.actor.id
 
     @property
+    def has_place(self) -> bool:
+        """Whether the scenario states its position along the road, or an actor beside it."""
+        return bool(self.references) or any(isinstance(m, _PLACES) for m in self.modifiers)
+
+    @property
     def is_open(self) -> bool:
         """Whether the scenario leaves its position along the road or its lane open."""
         if self.rank != 2:

@@ -56,15 +56,15 @@ class CourseAction(ModifiableAction):
     def on_start(self) -> None:
         """Commands the course."""
         commands = self.commands()
-        if self.context.step == 0:
+        if self.context.step == 0 and self.actor.id in self.context.open_starts:
             self._check_start(commands.values())
         for slot, command in commands.items():
             self.command(slot, command)
 
     def _check_start(self, commands: Iterable[Command]) -> None:
-        """Check that the actor of a replay starts the run where the replay begins.
+        """Check that an actor without a stated start starts the run where its replay begins.
 
-        Later it is set there, as the standard allows (DSL 8.8.2.8).
+        Others are set there, as the standard allows (DSL 8.8.2.8).
 
         Raises:
             Refused: It starts elsewhere.
