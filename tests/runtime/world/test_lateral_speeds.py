@@ -124,3 +124,25 @@ def test_by_a_shape(run: Run, shape: Any, at_two: float) -> None:
 def test_more_than_tyres_can_do(run: Run) -> None:
     done = run(scenario(lambda s: s.a.drive(across(4.0, at="end"), duration=0.2)))
     assert "from 0.0 to 4.0 m/s in 0.20 s requires more than 12 m/s^2" in done.result.reason
+
+
+@pytest.mark.parametrize("dt", [0.05, 0.02, 0.01])
+def test_a_constant_rate_ends_with_its_lane_change(run: Run, dt: float) -> None:
+    """It is aligned with its lane then (§8.8.3.3), so that nothing is taken over by what follows.
+
+    The change takes 1 s, but for what rounding adds to a length that is computed; the next one
+    moves by 3.5 m in 3 s, half of it in the first half.
+    """
+    length = 1.0 + 1e-10
+    act = scenario(
+        lambda s: Serial(
+            "twice",
+            s.a.change_lane(num_of_lanes=1, side="left", rate_profile="constant", duration=length),
+            s.a.change_lane(num_of_lanes=1, side="right", rate_profile="smooth", duration=3.0),
+        )
+    )
+    states = run(act, dt=dt).states("a")
+    first = next(state for state in states if state["t"] == pytest.approx(1.0))
+    assert rate(first) == pytest.approx(0.0, abs=1e-9)
+    half = next(state for state in states if state["t"] == pytest.approx(2.5))
+    assert first["y"] - half["y"] == pytest.approx(0.5 * 3.5, abs=0.02)

@@ -152,7 +152,8 @@ class Shift:
         wanted, room = self._profile.value(time), abs(path) * SIDEWAYS
         if abs(wanted - offset) <= room:
             self._time = time
-            return wanted, self._profile.rate(time)
+            # A constant rate ends with the change, whether a step ends there or goes beyond it.
+            return wanted, 0.0 if self.progress().done else self._profile.rate(time)
         share = room / abs(wanted - offset)
         self._lag += (1.0 - share) * dt
         self._time = self._steps * dt - self._lag
