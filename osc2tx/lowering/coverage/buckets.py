@@ -97,7 +97,11 @@ class _Grading:
     def __init__(self, ctx: LoweringContext, scenario: Composed) -> None:
         self._ctx = ctx
         self._found: TypeConstraints = ctx.analysis.types[scenario]
-        self._firm = self._found.firm
+        self._firm = [each.operations for each in self._found.firm]
+        self._by_key: dict[Key, list[int]] = {}
+        for index, operations in enumerate(self._firm):
+            for key in operations.keys_in_order:
+                self._by_key.setdefault(key, []).append(index)
         self._domains = self._found.domains_to_set()
         self._writer = OperationListBuilder(ctx.model)
 
@@ -127,9 +131,8 @@ class _Grading:
 
     def _is_solvable(self, given: Mapping[Key, Domain]) -> bool:
         connected = self._found.connected(given)  # others hold as they did in the analysis
-        operations = [
-            each.operations for each in self._firm if not each.operations.keys.isdisjoint(connected)
-        ]
+        indices = {index for key in connected for index in self._by_key.get(key, ())}
+        operations = [self._firm[index] for index in sorted(indices)]
         return not operations or not solve(operations, range(len(operations)), given).conflict
 
     def _sliced(self, sampled: Sampled) -> list[ir.Bucket]:

@@ -71,7 +71,8 @@ def _lower(
     elements = crossed.elements if isinstance(crossed, ast.ListLiteral) else ()
     items = tuple(name for e in elements if (name := text_of(e)) is not None)
     # One event samples all items of a cross (§7.5.4).
-    group = [i.arguments.get("event") for i in owner.items() if i.name in items]
+    members = owner.items() if items else ()
+    group = [i.arguments.get("event") for i in members if i.name in items]
     event = _event(ctx, arguments.get("event", group[0] if group else None))
     expression = None
     if source is not None:
