@@ -81,7 +81,7 @@ class RoadIndex:
         (left, bottom), (right, top) = self._extent
         first = max(1, left - cx, cx - right, bottom - cy, cy - top)
         last = max(abs(left - cx), abs(right - cx), abs(bottom - cy), abs(top - cy))
-        for ring in range(first, min(last, math.ceil(reach / _CELL)) + 1):
+        for ring in range(first, math.ceil(min(last, reach / _CELL)) + 1):
             hits = self._ring(cx, cy, ring)
             if hits:  # a corner of this ring may be farther away than the next ring
                 return hits + self._ring(cx, cy, ring + 1)

@@ -222,9 +222,10 @@ def _write(name: StreamName, text: str) -> None:
 
 
 def flush() -> None:
-    """Write out what others have printed, such as code of a user."""
-    sys.stdout.flush()
-    sys.stderr.flush()
+    """Write out what others have printed, such as code of a user, unless it is closed."""
+    for stream in (sys.stdout, sys.stderr):
+        if not stream.closed:
+            stream.flush()
 
 
 def _abandon(stream: TextIO) -> None:

@@ -211,3 +211,5 @@ def test_work_does_not_grow_with_the_distance_from_the_map(away: float) -> None:
     for reach in (50.0, 2e6):
         assert calls(lambda reach=reach: road_map.locate(0.0, away, max_distance=reach)) < 100_000
     assert (road_map.locate(0.0, away, max_distance=2e6) is not None) == (away == 1e6)
+    nearest = road_map.locate(0.0, 1e6, max_distance=math.inf)
+    assert nearest == road_map.locate(0.0, 1e6, max_distance=2e6)
