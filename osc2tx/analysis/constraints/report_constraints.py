@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
+from osc2tx.analysis.constraints.conjunctions import conjuncts, in_keeps_of_their_own
 from osc2tx.analysis.constraints.constants import (
     ConstantEvaluator,
     ImpossibleConversionError,
@@ -22,6 +23,7 @@ from osc2tx.analysis.constraints.propagation import (
 from osc2tx.analysis.constraints.solver import values_on
 from osc2tx.analysis.lints.usage import Usage
 from osc2tx.diagnostics import DiagnosticSink, Label
+from osc2tx.diagnostics.fixes import Remedy
 from osc2tx.semantics import SemanticModel
 from osc2tx.semantics.types import INT, UINT, Type
 from osc2tx.syntax import ast
@@ -29,6 +31,7 @@ from osc2tx.syntax import ast
 LIMITS: Mapping[Type, tuple[int, int]] = {INT: (-(2**63), 2**63 - 1), UINT: (0, 2**64 - 1)}
 KINDS = {"int": INT, "uint": UINT}
 ARITHMETIC = frozenset({"+", "-", "*", "/", "%", "convert"})
+EQUALITIES = (ast.BinaryOperator.EQUAL, ast.BinaryOperator.IN)
 MOST_LABELS = 6
 
 
@@ -116,8 +119,22 @@ def _report_default(
             "only a later `parameter == value` or `parameter in range`, with the parameter alone "
             "on the left, replaces a default"
         ],
-        help=f"drop the default: `remove_default({name})`" if name else None,
+        help=_replacing(conflict, default)
+        or (f"drop the default: `remove_default({name})`" if name else None),
     )
+
+
+def _replacing(conflict: tuple[Constraint, ...], default: Constraint) -> Remedy | None:
+    """Return the remedy that lets a part of a conjunction replace the default."""
+    for each in conflict:
+        if each.is_default or not isinstance(each.node, ast.KeepConstraint):
+            continue
+        for part in conjuncts(each.node.expression):
+            if not isinstance(part, ast.Binary) or part.operator not in EQUALITIES:
+                continue
+            if each.subject is None and each.place.locate(part.left) == default.subject:
+                return in_keeps_of_their_own(each.node)
+    return None
 
 
 def _what(constraint: Constraint) -> str:

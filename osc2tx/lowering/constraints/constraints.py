@@ -112,7 +112,7 @@ class ConstraintLowering:
         own = [c for c in mentioned if c.subject == key and c.value is not None]
         if isinstance(type_, types.ListType | types.RangeType):
             own = [c for c in own if not c.is_range]  # the content of a range is left to a check
-        definition = next((c for c in reversed(own) if not c.is_range), None)
+        definition = _definition_among(own)
         within = next((c for c in reversed(own) if c.is_range), None)
         hard = self._hard.get(key, domain_of_type(type_))
         writer = DomainWriter(self.ctx, key, type_, mentioned)
@@ -225,9 +225,8 @@ class ConstraintLowering:
             return True
         about = self.found.by_key.get(subject, ())
         own = [c for c in about if c.subject == subject and c.value is not None]
-        if len(member) == 1:  # the other parameter is declared later, and takes its last definition
-            definitions = [c for c in own if not c.is_range]
-            return len(subject) == 1 and definitions[-1:] == [constraint]
+        if len(member) == len(subject) == 1:  # the other is later: its last definition
+            return [c for c in own if not c.is_range][-1:] == [constraint]
         return own == [constraint]
 
     def _domain(
@@ -417,3 +416,13 @@ class ConstraintLowering:
             return ()
         self._with_comments.add(node)
         return statement_comments(node)
+
+
+def _definition_among(own: list[Constraint]) -> Constraint | None:
+    """Return the equality that gives a parameter its value: the last one, better a constant.
+
+    All of them hold, and another parameter may get its value by one that is no constant.
+    """
+    equalities = [c for c in reversed(own) if not c.is_range]
+    constants = (c for c in equalities if c.operations.keys == {c.subject})
+    return next(constants, next(iter(equalities), None))

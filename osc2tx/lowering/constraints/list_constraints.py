@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from osc2tx import ir
+from osc2tx.analysis.constraints.conjunctions import conjuncts
 from osc2tx.analysis.constraints.constraint import Constraint
 from osc2tx.analysis.constraints.operation_list import Key
 from osc2tx.analysis.constraints.parameter_lookup import Place
@@ -17,7 +18,6 @@ from osc2tx.lowering.constraints.parameter_domains import (
     COMPARISONS,
     all_values,
     as_type,
-    conjuncts,
 )
 from osc2tx.lowering.context import LoweringContext, statement_comments
 from osc2tx.lowering.declarations.user_fields import is_plain

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 
 from osc2tx import ir
 from osc2tx.analysis import single_value
+from osc2tx.analysis.constraints.conjunctions import conjuncts
 from osc2tx.analysis.constraints.constraint import Constraint
 from osc2tx.analysis.constraints.domains import Choice, Domain, Interval, Number, Value, close
 from osc2tx.analysis.constraints.operation_list import Key, domain_of_type
@@ -230,15 +231,6 @@ def as_type(expression: ir.Expression, type_: types.Type) -> ir.Expression:
         value = float(expression.value)
         return ir.Literal(span=expression.span, type=lower_type(type_), value=value)
     return expression
-
-
-def conjuncts(expression: ast.Expression) -> tuple[ast.Expression, ...]:
-    """Return the operands of a chain of `and`, left to right."""
-    parts: list[ast.Expression] = []
-    while isinstance(expression, ast.Binary) and expression.operator is Op.AND:
-        parts.append(expression.right)
-        expression = expression.left
-    return (expression, *reversed(parts))
 
 
 def written_domain(domain: ir.Domain, type_: types.Type, hard: Domain) -> Domain:

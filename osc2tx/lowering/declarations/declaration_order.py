@@ -11,6 +11,7 @@ from collections.abc import Iterable, Mapping
 from osc2tx import ir
 from osc2tx.diagnostics import Label
 from osc2tx.lowering.context import LoweringContext
+from osc2tx.lowering.declarations.members_read import with_members_written
 
 
 def in_order_of_use(
@@ -25,36 +26,60 @@ def in_order_of_use(
         declarations: Of one scenario.
         methods: The methods that values may call; a call needs all that the body reads.
     """
-    by_name = {declaration.name: declaration for declaration in declarations}
-    bodies = {method.name: method.expression for method in methods}
-    needs = {d.name: (*_events(d), *_needs(_values(d), bodies)) for d in declarations}
+    graph = _Graph(declarations, {method.name: method.expression for method in methods})
     ordered: dict[str, ir.Declaration] = {}
     for declaration in declarations:
-        _place(ctx, declaration, by_name, needs, ordered)
+        _place(ctx, declaration.name, graph, ordered)
     return tuple(ordered.values())
 
 
+class _Graph:
+    """The declarations of a scenario, and which others each needs."""
+
+    def __init__(
+        self,
+        declarations: tuple[ir.Declaration, ...],
+        bodies: Mapping[str, ir.Expression | None],
+    ) -> None:
+        self.by_name = {declaration.name: declaration for declaration in declarations}
+        self._bodies = bodies
+        self._needs = {each.name: self._needs_of(each) for each in declarations}
+
+    def missing(self, name: str, ordered: Mapping[str, ir.Declaration]) -> str | None:
+        """Return a declaration that another one needs and that is not placed yet."""
+        needed = (n for n in self._needs[name] if n in self.by_name and n not in ordered)
+        return next(needed, None)
+
+    def is_circle(self, names: list[str]) -> bool:
+        """Whether declarations still need each other if the values of members are written."""
+        before = {name: self._needs[name] for name in names}
+        for each in with_members_written([self.by_name[name] for name in names]):
+            self.by_name[each.name] = each
+            self._needs[each.name] = self._needs_of(each)
+        return all(self._needs[name] == needed for name, needed in before.items())
+
+    def _needs_of(self, declaration: ir.Declaration) -> tuple[str, ...]:
+        return (*_events(declaration), *_needs(_values(declaration), self._bodies))
+
+
 def _place(
-    ctx: LoweringContext,
-    start: ir.Declaration,
-    by_name: dict[str, ir.Declaration],
-    needs: Mapping[str, tuple[str, ...]],
-    ordered: dict[str, ir.Declaration],
+    ctx: LoweringContext, start: str, graph: _Graph, ordered: dict[str, ir.Declaration]
 ) -> None:
     """Add a declaration below those it needs; a chain of any length, so without recursion."""
     path = [start]
     while path:
         current = path[-1]
-        missing = [n for n in needs[current.name] if n in by_name and n not in ordered]
-        if current.name in ordered or not missing:
-            ordered.setdefault(path.pop().name, current)
-            continue
-        needed = by_name[missing[0]]
-        if needed in path:
-            _report_cycle(ctx, path[path.index(needed) :])
-            ordered.update((member.name, member) for member in path)
+        missing = None if current in ordered else graph.missing(current, ordered)
+        if missing is None:
+            ordered.setdefault(path.pop(), graph.by_name[current])
+        elif missing not in path:
+            path.append(missing)
+        elif graph.is_circle(circle := path[path.index(missing) :]):
+            _report_cycle(ctx, [graph.by_name[name] for name in circle])
+            ordered.update((name, graph.by_name[name]) for name in path)
             return
-        path.append(needed)
+        else:
+            del path[path.index(missing) + 1 :]
 
 
 def _report_cycle(ctx: LoweringContext, cycle: list[ir.Declaration]) -> None:

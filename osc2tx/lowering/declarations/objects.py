@@ -25,6 +25,7 @@ from osc2tx.lowering.declarations.map_fields import (
     is_search_criterion,
     reads_map,
 )
+from osc2tx.lowering.declarations.members_read import path_of
 from osc2tx.lowering.declarations.user_fields import (
     TypeSymbol,
     class_default,
@@ -344,12 +345,8 @@ def _default_at(
 
 def _path_below(object_: str, part: ir.Expression) -> tuple[str, ...]:
     """Return the path of a member of an object, `("position", "x")`; empty for anything else."""
-    path: list[str] = []
-    while isinstance(part, ir.Attribute):
-        path.append(part.name)
-        part = part.base
-    is_below = isinstance(part, ir.FieldRef) and part.name == object_
-    return tuple(reversed(path)) if is_below else ()
+    path = path_of(part)
+    return path[1:] if path[:1] == (object_,) else ()
 
 
 def _contains_itself(key: Key, member: sym.FieldSymbol) -> bool:

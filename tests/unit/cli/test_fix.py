@@ -30,6 +30,15 @@ def test_safe_fixes_are_written(shell: Shell) -> None:
     assert "0 errors" in ended.out
 
 
+def test_a_conjunction_becomes_constraints_that_replace_defaults(shell: Shell) -> None:
+    line = "  keep(a == 1 and b == 2)\n"
+    text = "import osc.standard.all\n\nstruct base:\n  a: int = 5\n  b: int = 6\n\n"
+    text += f"struct derived inherits base:\n{line}"
+    path = shell.write("a.osc", text)
+    assert shell("check", path, "--fix").code == 0
+    assert path.read_text() == text.replace(line, "  keep(a == 1)\n  keep(b == 2)\n")
+
+
 def test_a_second_time_there_is_nothing_to_fix(shell: Shell) -> None:
     path = shell.write("a.osc", SLIP)
     shell("check", path, "--fix")
