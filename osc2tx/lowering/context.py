@@ -43,107 +43,146 @@ class Receiver:
     value: ir.Expression
 
 
-@dataclass(frozen=True)  # without slots: a variant is a copy of the dict with one other field
-class LoweringContext:
-    """The checked program and the place for complaints, while one scenario is lowered.
+@dataclass(frozen=True, slots=True)
+class Program:
+    """What is known of the program before its scenarios are lowered.
 
     Attributes:
         model: The program.
         analysis: The result of the analysis of its constraints.
-        sink: Receives the diagnostics.
         lower_with: The function that lowers expressions of any kind.
-        globals: The global parameters that the scenario uses, in order of use.
-        own_names: Names of the members of the scenario.
-        event_fields: Events that fields such as `x` in `@e as x` stand for, by their names and the
-            keys of the invoked scenarios that have them.
-        invoked: The scenarios and composed actions that it invokes, in order of use.
-        drawn: Parameters that stand for ranges in its tree, structs that constraints of
-            invocations describe, and variables of modifiers, in order of use.
-        place: Scope of the names in an expression, in constraints.
-        it: The meaning of `it` there.
-        types: Types of declared objects that are not the library's, in order of use.
-        combined: Combinations of conditional types that objects are of, by name.
-        actions: Actions that are invoked, in order of use.
-        modifiers: User-defined modifiers that are applied, in order of use.
-        given: Values of parameters of invocations that constraints may mention.
-        receiver: The object whose method an expression is the body of.
-        methods: Methods of types that the scenario calls, by name, in order of use.
-        object_events: Events of its objects that it waits for, by path, in order of use.
-        object_variables: Sampled variables of its objects that it reads, by path: the field, and
-            the object.
-        attached: Events and variables of the modifier or extended action that is looked at, and
-            their names in the scenario.
-        locals: Values of parameters that are not those of a method.
-        actor: The meaning of `actor` in a modifier; elsewhere it is the field of the scenario.
-        expanding: Methods of modifiers that the expression is the body of, the outermost first.
-        purity: Methods, and whether their results do not depend on the world.
         mentioned: The fields that some expression of the program reads, and in which files.
         default_keeps: Constraints that give fields a default in the type that declares them.
         handed_in: Parameters of invoked scenarios that an invocation sets.
         computed: Those of them that some invocation gives no plain name.
-        same_actors: The actors of the scenario that are equal to others.
         object_types: The types of which the program may have objects.
-        constants: Values of parameters that constraints set to a constant, with the rest of their
-            domains.
     """
 
     model: SemanticModel
     analysis: ConstraintAnalysis
-    sink: DiagnosticSink
     lower_with: Callable[[LoweringContext, ast.Expression], ir.Expression | None]
-    globals: dict[str, FieldSymbol] = field(default_factory=dict)
-    own_names: frozenset[str] = frozenset()
-    event_fields: dict[int, tuple[str, str | None]] = field(default_factory=dict)
-    invoked: list[ScenarioSymbol | ActionSymbol] = field(default_factory=list)
-    drawn: list[ir.Parameter | ir.Struct | ir.Actor | ir.Variable] = field(default_factory=list)
-    types: list[ActorSymbol | StructSymbol] = field(default_factory=list)
-    combined: dict[str, ir.UserType] = field(default_factory=dict)
-    actions: list[ActionSymbol] = field(default_factory=list)
-    modifiers: list[ModifierSymbol] = field(default_factory=list)
-    place: Place | None = None
-    it: ir.Expression | None = None
-    given: dict[Key, ir.Expression] = field(default_factory=dict)
-    receiver: Receiver | None = None
-    methods: dict[str, MethodSymbol] = field(default_factory=dict)
-    object_events: dict[str, ir.Event | None] = field(default_factory=dict)
-    object_variables: dict[str, tuple[FieldSymbol, ir.Expression]] = field(default_factory=dict)
-    expanding: tuple[str, ...] = ()
-    purity: dict[MethodSymbol, bool] = field(default_factory=dict)
-    attached: Mapping[Symbol, str] = field(default_factory=dict)
-    locals: Mapping[str, ir.Expression] = field(default_factory=dict)
-    actor: ir.Expression | None = None
     mentioned: Mapping[FieldSymbol, frozenset[str]] = field(default_factory=dict)
     default_keeps: Mapping[FieldSymbol, ast.KeepConstraint] = field(default_factory=dict)
     handed_in: frozenset[Symbol] = frozenset()
     computed: frozenset[Symbol] = frozenset()
-    same_actors: Mapping[FieldSymbol, SameActor] = field(default_factory=dict)
     object_types: tuple[TypeSymbol, ...] = ()
+
+
+@dataclass(slots=True)
+class UsedDeclarations:
+    """Declarations that the lowered scenarios use, in order of use.
+
+    Attributes:
+        types: Types of declared objects that are not the library's.
+        combined: Combinations of conditional types that objects are of, by name.
+        actions: Actions that are invoked.
+        modifiers: User-defined modifiers that are applied.
+        purity: Methods, and whether their results do not depend on the world.
+    """
+
+    types: list[ActorSymbol | StructSymbol] = field(default_factory=list)
+    combined: dict[str, ir.UserType] = field(default_factory=dict)
+    actions: list[ActionSymbol] = field(default_factory=list)
+    modifiers: list[ModifierSymbol] = field(default_factory=list)
+    purity: dict[MethodSymbol, bool] = field(default_factory=dict)
+
+
+@dataclass(slots=True)
+class ScenarioState:
+    """What the lowering of one scenario has made and met so far, in order of use.
+
+    Attributes:
+        globals: The global parameters that it uses.
+        event_fields: Events that fields such as `x` in `@e as x` stand for, by their names and the
+            keys of the invoked scenarios that have them.
+        invoked: The scenarios and composed actions that it invokes.
+        drawn: Parameters that stand for ranges in its tree, structs that constraints of
+            invocations describe, and variables of modifiers.
+        given: Values of parameters of invocations that constraints may mention.
+        methods: Methods of types that it calls, by name.
+        object_events: Events of its objects that it waits for, by path.
+        object_variables: Sampled variables of its objects that it reads, by path: the field, and
+            the object.
+        constants: Values of parameters that constraints set to a constant, with the rest of their
+            domains.
+    """
+
+    globals: dict[str, FieldSymbol] = field(default_factory=dict)
+    event_fields: dict[int, tuple[str, str | None]] = field(default_factory=dict)
+    invoked: list[ScenarioSymbol | ActionSymbol] = field(default_factory=list)
+    drawn: list[ir.Parameter | ir.Struct | ir.Actor | ir.Variable] = field(default_factory=list)
+    given: dict[Key, ir.Expression] = field(default_factory=dict)
+    methods: dict[str, MethodSymbol] = field(default_factory=dict)
+    object_events: dict[str, ir.Event | None] = field(default_factory=dict)
+    object_variables: dict[str, tuple[FieldSymbol, ir.Expression]] = field(default_factory=dict)
     constants: dict[Constraint, tuple[Setting, Domain | None]] = field(default_factory=dict)
+
+    def ahead(self) -> ScenarioState:
+        """Return a state to look ahead with: it knows what this one knows, which stays as it is."""
+        return replace(
+            self,
+            globals=dict(self.globals),
+            invoked=[],
+            drawn=[],
+            methods=dict(self.methods),
+            object_events=dict(self.object_events),
+            object_variables=dict(self.object_variables),
+            constants={},
+        )
+
+
+@dataclass(frozen=True)  # without slots: a variant is a copy of the dict with one other field
+class LoweringContext:
+    """The program, the state of the lowering, and the meaning of the names in a part of a scenario.
+
+    Attributes:
+        program: The checked program.
+        used: The declarations that its scenarios use.
+        sink: Receives the diagnostics.
+        state: The state of the lowering of the scenario.
+        own_names: Names of the members of the scenario.
+        same_actors: The actors of the scenario that are equal to others.
+        place: Scope of the names in an expression, in constraints.
+        it: The meaning of `it` there.
+        receiver: The object whose method an expression is the body of.
+        expanding: Methods of modifiers that the expression is the body of, the outermost first.
+        attached: Events and variables of the modifier or extended action that is looked at, and
+            their names in the scenario.
+        locals: Values of parameters that are not those of a method.
+        actor: The meaning of `actor` in a modifier; elsewhere it is the field of the scenario.
+    """
+
+    program: Program
+    used: UsedDeclarations
+    sink: DiagnosticSink
+    state: ScenarioState = field(default_factory=ScenarioState)
+    own_names: frozenset[str] = frozenset()
+    same_actors: Mapping[FieldSymbol, SameActor] = field(default_factory=dict)
+    place: Place | None = None
+    it: ir.Expression | None = None
+    receiver: Receiver | None = None
+    expanding: tuple[str, ...] = ()
+    attached: Mapping[Symbol, str] = field(default_factory=dict)
+    locals: Mapping[str, ir.Expression] = field(default_factory=dict)
+    actor: ir.Expression | None = None
+
+    @property
+    def model(self) -> SemanticModel:
+        """The model of the program."""
+        return self.program.model
 
     def lower(self, node: ast.Expression) -> ir.Expression | None:
         """Return an expression as the IR has it; `None` if a part of it was refused.
 
         For modules that `expressions` itself imports.
         """
-        return self.lower_with(self, node)
+        return self.program.lower_with(self, node)
 
     def of_scenario(
         self, own_names: frozenset[str], same: Mapping[FieldSymbol, SameActor]
     ) -> LoweringContext:
         """Return the context for another scenario of the same program, with such members."""
-        return replace(
-            self,
-            own_names=own_names,
-            same_actors=same,
-            globals={},
-            event_fields={},
-            invoked=[],
-            drawn=[],
-            given={},
-            methods={},
-            object_events={},
-            object_variables={},
-        )
+        return self._with(state=ScenarioState(), own_names=own_names, same_actors=same)
 
     def at(self, place: Place) -> LoweringContext:
         """Return the context for an expression of a constraint."""
@@ -161,28 +200,27 @@ class LoweringContext:
         """Return the context for an expression in which a parameter stands for something."""
         return self._with(locals={**self.locals, name: value})
 
+    def with_attached(self, names: Mapping[Symbol, str]) -> LoweringContext:
+        """Return the context for members that a modifier or an extended action adds."""
+        return self._with(attached={**self.attached, **names})
+
+    def in_method(self, name: str) -> LoweringContext:
+        """Return the context for the body of a method of a modifier."""
+        return self._with(expanding=(*self.expanding, name))
+
     def inside(self, receiver: Receiver) -> LoweringContext:
         """Return the context for the body of a method of a type."""
         return self._with(receiver=receiver, place=None, it=receiver.value)
 
     def _with(self, **changes: object) -> LoweringContext:
-        """Return a context with other fields: `replace` would set all thirty, for each argument."""
+        """Return a context with other fields: `replace` would set all, for each argument."""
         made = object.__new__(LoweringContext)
         made.__dict__.update(self.__dict__, **changes)
         return made
 
     def quiet(self) -> LoweringContext:
         """Return a context to look ahead with: nothing is reported, and nothing is noted."""
-        return self._with(
-            sink=DiagnosticSink(),
-            globals=dict(self.globals),
-            invoked=[],
-            drawn=[],
-            methods=dict(self.methods),
-            object_events=dict(self.object_events),
-            object_variables=dict(self.object_variables),
-            constants={},
-        )
+        return self._with(sink=DiagnosticSink(), state=self.state.ahead())
 
     def draw(
         self, name: str, domain: ir.Domain | None, type_: ir.ValueType, span: Span | None = None
@@ -209,12 +247,12 @@ class LoweringContext:
             is_fixed=False,
             unit=authored_unit(self.model, type_, (domain,)),
         )
-        self.drawn.append(parameter)
+        self.state.drawn.append(parameter)
         return ir.FieldRef(span=place, type=type_, name=unique)
 
     def unique(self, name: str) -> str:
         """Return a name that nothing drawn has, with a number if need be."""
-        taken = {each.name for each in self.drawn}
+        taken = {each.name for each in self.state.drawn}
         number, unique = 1, name
         while unique in taken:
             number += 1

@@ -24,7 +24,14 @@ from osc2tx.lowering.behavior.invoked_times import ScenarioOf
 from osc2tx.lowering.behavior.time_system import TimeSystem
 from osc2tx.lowering.behavior.user_actions import lower_actions
 from osc2tx.lowering.constraints.constraints import ConstraintLowering
-from osc2tx.lowering.context import LoweringContext, apart, present, statement_comments
+from osc2tx.lowering.context import (
+    LoweringContext,
+    Program,
+    UsedDeclarations,
+    apart,
+    present,
+    statement_comments,
+)
 from osc2tx.lowering.coverage.coverage import lower_coverage
 from osc2tx.lowering.declarations.combined_types import lineage
 from osc2tx.lowering.declarations.declaration_order import in_order_of_use
@@ -66,38 +73,12 @@ def lower(
     """
     lowered: dict[Composed, ir.AbstractScenario | None] = {}
     invoked: set[Composed] = set()
-    used: list[sym.ActorSymbol | sym.StructSymbol] = []
-    actions: list[sym.ActionSymbol] = []
-    applied: list[sym.ModifierSymbol] = []
     composed, others = _own_actions(model)
     own: list[Composed] = [*model.scenarios, *composed]
     pending = list(own)
-    program = LoweringContext(
-        model,
-        analysis,
-        sink,
-        lower_expression,
-        types=used,
-        actions=actions,
-        modifiers=applied,
-        mentioned=mentioned_fields(model),
-        default_keeps=default_keeps(model),
-        handed_in=frozenset(
-            [
-                *(p for b in model.bindings.values() for p, _ in b.arguments),
-                *_described_parameters(analysis),
-                *_left_to_invocations(model),
-            ]
-        ),
-        computed=frozenset(
-            parameter
-            for binding in model.bindings.values()
-            for parameter, value in binding.arguments
-            if not isinstance(value, ast.NameExpression | ast.MemberAccess)
-        ),
-        object_types=object_types(model, analysis),
-    )
-    lowering = _ProgramLowering(program, options, frozenset(own))
+    used = UsedDeclarations()
+    ctx = LoweringContext(_program(model, analysis), used, sink)
+    lowering = _ProgramLowering(ctx, options, frozenset(own))
     while pending:
         scenario = pending.pop(0)
         if scenario in lowered:
@@ -106,7 +87,7 @@ def lower(
         lowered[scenario], used_inside = lowering.lower(scenario, is_inherited_only)
         invoked.update(used_inside)
         pending += [*used_inside, *_user_base(scenario)]
-    report_unsupported_members(program, used, actions, tuple(lowered))
+    report_unsupported_members(ctx, tuple(lowered))
     found = _bases_first(lowered)
     module = ir.Module(
         source=model.root.span.source.name,
@@ -121,27 +102,51 @@ def lower(
         bases=tuple(each for each in found.values() if not isinstance(each, ir.Scenario)),
         comments=_head_comments(model.root),
         units=lower_units(model),
-        types=lower_types(program, used),
-        actions=lower_actions(program, (*actions, *others)),
+        types=lower_types(ctx),
+        actions=lower_actions(ctx, (*used.actions, *others)),
     )
-    modifiers = dict.fromkeys((*own_modifiers(model), *applied))
-    module = replace(module, modifiers=lower_modifiers(program, modifiers))
+    modifiers = dict.fromkeys((*own_modifiers(model), *used.modifiers))
+    module = replace(module, modifiers=lower_modifiers(ctx, modifiers))
     return replace(module, enums=lower_enums(model, module))
+
+
+def _program(model: SemanticModel, analysis: ConstraintAnalysis) -> Program:
+    given = [pair for binding in model.bindings.values() for pair in binding.arguments]
+    return Program(
+        model,
+        analysis,
+        lower_expression,
+        mentioned=mentioned_fields(model),
+        default_keeps=default_keeps(model),
+        handed_in=frozenset(
+            [
+                *(parameter for parameter, _ in given),
+                *_described_parameters(analysis),
+                *_left_to_invocations(model),
+            ]
+        ),
+        computed=frozenset(
+            parameter
+            for parameter, value in given
+            if not isinstance(value, ast.NameExpression | ast.MemberAccess)
+        ),
+        object_types=object_types(model, analysis),
+    )
 
 
 class _ProgramLowering:
     """Lowers the scenarios of a program, each once.
 
     Args:
-        program: The program.
+        ctx: The context of the program.
         options: Of the compilation.
         own: The scenarios and actions of the root file.
     """
 
     def __init__(
-        self, program: LoweringContext, options: CompileOptions, own: frozenset[Composed]
+        self, ctx: LoweringContext, options: CompileOptions, own: frozenset[Composed]
     ) -> None:
-        self._program = program
+        self._ctx = ctx
         self._own = own
         self._first_come = options.dialect == "carla"
         self._made: dict[Composed, tuple[ir.AbstractScenario | None, Sequence[Composed]]] = {}
@@ -164,13 +169,13 @@ class _ProgramLowering:
     def _lower(
         self, scenario: Composed, is_inherited_only: bool
     ) -> tuple[ir.AbstractScenario | None, Sequence[Composed]]:
-        ctx = (self._program.quiet() if is_inherited_only else self._program).of_scenario(
+        ctx = (self._ctx.quiet() if is_inherited_only else self._ctx).of_scenario(
             frozenset(name for each in lineage_of(scenario) for name in each.members),
-            same_actors(self._program.analysis.types[scenario]),
+            same_actors(self._ctx.program.analysis.types[scenario]),
         )
 
         def scenario_of(key: str) -> ir.AbstractScenario | None:
-            self._by_key.update((scenario_key(each), each) for each in ctx.invoked)
+            self._by_key.update((scenario_key(each), each) for each in ctx.state.invoked)
             return self.lower(self._by_key[key])[0]
 
         made = _lower_scenario(
@@ -180,9 +185,9 @@ class _ProgramLowering:
             first_come=self._first_come,
             scenario_of=scenario_of,
         )
-        self._by_key.update((scenario_key(each), each) for each in ctx.invoked)
+        self._by_key.update((scenario_key(each), each) for each in ctx.state.invoked)
         is_refused = is_inherited_only and ctx.sink.has_errors  # its own file reports it
-        return None if is_refused else made, ctx.invoked
+        return None if is_refused else made, ctx.state.invoked
 
 
 def _user_base(scenario: Composed) -> tuple[Composed, ...]:
@@ -297,8 +302,8 @@ def _lower_scenario(
                 *_own_actor(ctx, scenario),
                 *global_parameters,
                 *times.declared,
-                *ctx.drawn,
-                *present(list(ctx.object_events.values())),
+                *ctx.state.drawn,
+                *present(list(ctx.state.object_events.values())),
                 *object_variables,
             ),
             (*methods, *type_methods),
@@ -321,7 +326,7 @@ def _solvable(ctx: LoweringContext, scenario: Composed) -> set[str]:
         name
         for each in lineage_of(scenario)
         for name, member in each.members.items()
-        if isinstance(member, sym.FieldSymbol) and member not in ctx.handed_in
+        if isinstance(member, sym.FieldSymbol) and member not in ctx.program.handed_in
     }
 
 
@@ -340,7 +345,7 @@ def _own_actor(ctx: LoweringContext, scenario: Composed) -> tuple[ir.Actor, ...]
         return ()
     span = scenario.node.name.span
     names = lineage(actor)
-    ctx.types.append(actor)
+    ctx.used.types.append(actor)
     fields = (field for each in user_lineage(actor) for field in user_fields(ctx, each))
     is_given = any(class_default(ctx, field) is None for field in fields)
     return (

@@ -15,22 +15,16 @@ from osc2tx.semantics.types import ActorType, StructType
 from osc2tx.syntax import ast
 
 
-def report_unsupported_members(
-    ctx: LoweringContext,
-    used: Iterable[sym.TypeSymbol],
-    actions: Iterable[sym.ActionSymbol],
-    scenarios: Iterable[sym.TypeSymbol],
-) -> None:
+def report_unsupported_members(ctx: LoweringContext, scenarios: Iterable[sym.TypeSymbol]) -> None:
     """Report members of types in use that would have no effect, each of them once.
 
     Args:
-        ctx: The checked program.
-        used: Types of declared objects.
-        actions: Actions that are invoked.
+        ctx: The lowered program.
         scenarios: Behaviors that the module has classes for.
     """
     found: dict[sym.TypeSymbol, None] = {}
-    for symbol in (*used, *actions):
+    used: tuple[sym.TypeSymbol, ...] = (*ctx.used.types, *ctx.used.actions)
+    for symbol in used:
         _add(symbol, found)
     for symbol in found:
         for statement in symbol.statements:

@@ -44,7 +44,7 @@ def with_open_duration(
         return node
     drawn = ctx.draw(name, duration, duration.lower.type)
     if written is not None:
-        ctx.given[written, DURATION] = drawn
+        ctx.state.given[written, DURATION] = drawn
     return replace(node, duration=drawn)
 
 
@@ -119,21 +119,21 @@ def own_duration(ctx: LoweringContext, constraints: ConstraintLowering) -> ir.Ex
         return None
     setting = constraints.setting(_OWN, DURATION.type)
     if setting.value is not None:
-        ctx.given[_OWN] = setting.value
+        ctx.state.given[_OWN] = setting.value
         return setting.value
     match setting.domain:
         case ir.RangeValue() | ir.HalfRange() as bounds:
             return bounds
         case ir.Choices() as listed:
             drawn = ctx.draw("duration", listed, listed.elements[0].type)
-            ctx.given[_OWN] = drawn
+            ctx.state.given[_OWN] = drawn
             return drawn
     return None
 
 
 def leaves_duration_open(ctx: LoweringContext, behavior: Composed) -> bool:
     """Whether constraints in a behavior state its duration as a range."""
-    found = ctx.analysis.types[behavior]
+    found = ctx.program.analysis.types[behavior]
     if _OWN not in found.by_key:
         return False
     domain = found.domains_to_set().get(_OWN)

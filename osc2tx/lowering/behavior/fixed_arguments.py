@@ -25,7 +25,7 @@ def without_fixed(
     A constant that contradicts the scenario is an error already; an open value may do so. Where
     the scenario computes a parameter from others, these get the values that make it the argument.
     """
-    domains = ctx.analysis.types[callee].domains_to_set()
+    domains = ctx.program.analysis.types[callee].domains_to_set()
     fixed = set()
     for parameter in parameters_of(callee):
         domain = domains.get((parameter,))
@@ -91,7 +91,7 @@ def _related(
 ) -> list[sym.FieldSymbol]:
     """Return the parameters that hard constraints relate to one."""
     found: dict[sym.FieldSymbol, None] = {}
-    for constraint in ctx.analysis.types[callee].by_key.get((parameter,), ()):
+    for constraint in ctx.program.analysis.types[callee].by_key.get((parameter,), ()):
         for key in () if constraint.is_default else constraint.operations.keys_in_order:
             if len(key) == 1 and isinstance(key[0], sym.FieldSymbol) and key[0] is not parameter:
                 found[key[0]] = None

@@ -124,7 +124,7 @@ class InvocationLowering:
         comments: tuple[str, ...],
         attached: Attached,
     ) -> ir.Invoke:
-        self._ctx.actions.append(callee)
+        self._ctx.used.actions.append(callee)
         arguments = self._arguments(node, actor)
         if is_user_defined(callee):
             arguments += default_arguments(self._ctx, callee, arguments, actor, node)
@@ -188,7 +188,7 @@ class InvocationLowering:
                 help="state its behavior: `do …`",
             )
             return None
-        self._ctx.invoked.append(callee)
+        self._ctx.state.invoked.append(callee)
         given = self._arguments(node, actor)
         arguments = self._specials.drawn(node, special, given, name_of_member(node))
         self.refuse_movement(node, actor, callee, "an invoked scenario", attached)
@@ -278,7 +278,7 @@ class InvocationLowering:
         for argument in arguments:
             key: Key = (node, fields[argument.parameter])
             if not isinstance(argument.value, ir.RangeValue):
-                self._ctx.given.setdefault(key, argument.value)
+                self._ctx.state.given.setdefault(key, argument.value)
         assert isinstance(binding.callee, sym.BehaviorSymbol)
         lowering = self._modifier_lowering(node, actor, binding.callee)
         for member in node.with_members:
@@ -305,7 +305,7 @@ class InvocationLowering:
             if value is None:
                 continue
             if value is not setting.domain:
-                self._ctx.given[node, parameter] = value
+                self._ctx.state.given[node, parameter] = value
             arguments.append(_named(parameter, value))
         objects = ObjectLowering(self._ctx, self._constraints)
         for parameter in self._constraints.structs_of_instance(node):
@@ -313,9 +313,9 @@ class InvocationLowering:
             name = f"{name_of_member(node)}.{parameter.name}"
             type_ = lower_type(parameter.type)
             object_ = ir.FieldRef(span=node.span, type=type_, name=self._ctx.unique(name))
-            self._ctx.given[node, parameter] = object_
+            self._ctx.state.given[node, parameter] = object_
             struct = objects.of_parameter((node, parameter), parameter.type, object_)
-            self._ctx.drawn.append(struct)
+            self._ctx.state.drawn.append(struct)
             arguments.append(_named(parameter, object_))
         return tuple(arguments)
 

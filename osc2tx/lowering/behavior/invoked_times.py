@@ -87,12 +87,12 @@ class InvokedTimes:
         Times that it draws become parameters of the invoker. Empty if only the run decides; one
         length for each choice of its alternatives.
         """
-        known, drawn = list(self.ctx.drawn), dict[str, ir.FieldRef]()
+        known, drawn = list(self.ctx.state.drawn), dict[str, ir.FieldRef]()
         try:
             frame = self._invoked(node, None, drawn)
             found = self._lengths(frame.scenario.body, frame)
         except _Undecided:
-            self.ctx.drawn[:] = known
+            self.ctx.state.drawn[:] = known
             return ()
         if drawn:
             self._drawn[node] = drawn
@@ -110,7 +110,7 @@ class InvokedTimes:
             constraints: Constraints that are checked before a run.
         """
         named = names_in(tuple(each.expression for each in constraints))
-        named |= {name for each in self.ctx.drawn for name in self._read_by(each)}
+        named |= {name for each in self.ctx.state.drawn for name in self._read_by(each)}
         by_span: dict[Hashable, tuple[ir.Argument, ...]] = {}
         for node, drawn in self._drawn.items():
             names = {ref.name for ref in drawn.values()}
@@ -120,11 +120,13 @@ class InvokedTimes:
                     for path, ref in drawn.items()
                 )
             else:
-                self.ctx.drawn[:] = [each for each in self.ctx.drawn if each.name not in names]
+                self.ctx.state.drawn[:] = [
+                    each for each in self.ctx.state.drawn if each.name not in names
+                ]
         return _with_times(tree, by_span) if by_span else tree
 
     def _is_solved(self, name: str) -> bool:
-        return not any(each is self._as_drawn[name] for each in self.ctx.drawn)
+        return not any(each is self._as_drawn[name] for each in self.ctx.state.drawn)
 
     def _read_by(self, drawn: ir.Declaration) -> set[str]:
         if not isinstance(drawn, ir.Parameter):
@@ -241,9 +243,9 @@ class InvokedTimes:
         within = replace(domain, lower=bounds[0], upper=bounds[1])
         name = f"{declared.name} of {frame.who}"
         ref = self.ctx.draw(name, within, declared.type, declared.span)
-        drawn = self.ctx.drawn[-1]
+        drawn = self.ctx.state.drawn[-1]
         assert isinstance(drawn, ir.Parameter)
-        self.ctx.drawn[-1] = self._as_drawn[ref.name] = replace(drawn, unit=declared.unit)
+        self.ctx.state.drawn[-1] = self._as_drawn[ref.name] = replace(drawn, unit=declared.unit)
         frame.drawn[path] = ref
         return ref
 

@@ -217,21 +217,21 @@ def attached_context(
     ]
     members = [m for m in members if isinstance(m, sym.EventSymbol) or m.is_variable]
     names: Mapping[sym.Symbol, str] = {m: _free(ctx, f"{what}.{m.name}") for m in members}
-    inside = replace(ctx, attached={**ctx.attached, **names})
+    inside = ctx.with_attached(names)
     for member in members:
-        ctx.object_events[names[member]] = None  # while its own specification is looked at
+        ctx.state.object_events[names[member]] = None  # while its own specification is looked at
     for member in members:
         name = names[member]
         if isinstance(member, sym.EventSymbol):
-            ctx.object_events[name] = _event(inside, member, name)
+            ctx.state.object_events[name] = _event(inside, member, name)
         else:
-            ctx.object_events.pop(name)
-            ctx.drawn.extend(present([_variable(inside, member, name)]))
+            ctx.state.object_events.pop(name)
+            ctx.state.drawn.extend(present([_variable(inside, member, name)]))
     return inside
 
 
 def _free(ctx: LoweringContext, name: str) -> str:
-    taken = {*ctx.object_events, *(each.name for each in ctx.drawn)}
+    taken = {*ctx.state.object_events, *(each.name for each in ctx.state.drawn)}
     candidates = (name if n == 1 else f"{name} {n}" for n in range(1, len(taken) + 2))
     return next(each for each in candidates if each not in taken)
 

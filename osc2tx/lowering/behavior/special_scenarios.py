@@ -105,7 +105,7 @@ class SpecialScenarios:
     ) -> tuple[ir.SpecialScenario, ...]:
         """Return the conditional scenarios for the IR; all are scenarios that are invoked."""
         spans = {argument.parameter: argument.span for argument in arguments}
-        self.ctx.invoked.extend(special for special, _ in found.others)
+        self.ctx.state.invoked.extend(special for special, _ in found.others)
         return tuple(
             ir.SpecialScenario(
                 scenario=special.qualified_name,
@@ -134,7 +134,7 @@ class SpecialScenarios:
             domain = given.value if given is not None else self._choices(node, field)
             assert isinstance(domain, ir.Choices)
             value = self.ctx.draw(f"{name}.{field.name}", domain, lower_type(field.type))
-            self.ctx.given[node, field] = value
+            self.ctx.state.given[node, field] = value
             result[field.name] = ir.Argument(
                 parameter=field.name, value=value, is_positional=False, span=node.span
             )

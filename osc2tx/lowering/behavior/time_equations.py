@@ -179,9 +179,9 @@ class TimeEquations:
         found, wanted = self.bounds((value,)), self.bounds((parameter.domain,))
         name = ir.FieldRef(span=parameter.span, type=parameter.type, name=parameter.name)
         solved = replace(parameter, value=value, domain=None, is_fixed=True)
-        if parameter in self.ctx.drawn:
-            self.ctx.drawn.remove(parameter)
-            self.ctx.drawn.append(solved)
+        if parameter in self.ctx.state.drawn:
+            self.ctx.state.drawn.remove(parameter)
+            self.ctx.state.drawn.append(solved)
         else:
             self._replace(parameter, solved)
         if not lies_within(found, wanted):
@@ -254,7 +254,7 @@ class TimeEquations:
 
     def _values(self) -> dict[str, ir.Expression]:
         found: dict[str, ir.Expression] = {}
-        for each in (*self.declared, *self.ctx.drawn):
+        for each in (*self.declared, *self.ctx.state.drawn):
             if isinstance(each, ir.Parameter):
                 is_open = each.value is None or not each.is_fixed
                 value = each.domain if is_open else each.value
@@ -264,7 +264,7 @@ class TimeEquations:
 
     def _computed(self) -> dict[str, ir.Expression]:
         """Return the values of parameters that have one, defaults included."""
-        known = (*self.declared, *self.ctx.drawn)
+        known = (*self.declared, *self.ctx.state.drawn)
         parameters = (each for each in known if isinstance(each, ir.Parameter))
         return {each.name: each.value for each in parameters if each.value is not None}
 
@@ -285,7 +285,7 @@ class TimeEquations:
         self, declarations: Sequence[ir.Declaration] | None = None
     ) -> list[ir.Parameter]:
         """Return the parameters that can be solved for, by default those of ranges."""
-        drawn = self.ctx.drawn if declarations is None else declarations
+        drawn = self.ctx.state.drawn if declarations is None else declarations
         return [
             each
             for each in drawn
@@ -303,7 +303,7 @@ class TimeEquations:
         return next((each for each in known if each.name == term.name), None)
 
     def _replace(self, old: ir.Parameter, new: ir.Parameter) -> None:
-        declarations = self.ctx.drawn if old in self.ctx.drawn else self.declared
+        declarations = self.ctx.state.drawn if old in self.ctx.state.drawn else self.declared
         declarations[declarations.index(old)] = new
 
     def _is_apart(self, parameter: ir.Parameter, others: Terms) -> bool:
@@ -345,7 +345,7 @@ class TimeEquations:
         """Whether a sum depends on drawn values."""
         drawn = {
             each.name
-            for each in (*self.ctx.drawn, *self.declared)
+            for each in (*self.ctx.state.drawn, *self.declared)
             if isinstance(each, ir.Parameter) and each.domain is not None
         }
         return bool(drawn & names_in(terms))

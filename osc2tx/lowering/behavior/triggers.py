@@ -28,7 +28,9 @@ def lower_trigger(
     """Lower an event specification; `None` if a part of it was refused."""
     event = None if node.event is None else _lower_event(ctx, node.event)
     if node.field is not None and event is not None:
-        ctx.event_fields[id(ctx.model.symbol_of(node.field))] = _origin_of(ctx, node.event, event)
+        ctx.state.event_fields[id(ctx.model.symbol_of(node.field))] = _origin_of(
+            ctx, node.event, event
+        )
     condition = None if node.condition is None else _lower_condition(ctx, node.condition)
     if (node.event is None) != (event is None) or (node.condition is None) != (condition is None):
         return None
@@ -178,9 +180,9 @@ def event_of_object(
     if object_ is None:
         return None
     name = f"{path_of(object_) or condensed(object_.span.text)}.{symbol.name}"
-    if name not in ctx.object_events:
-        ctx.object_events[name] = None  # while its own specification is looked at
-        ctx.object_events[name] = _declared(ctx, symbol, object_, name)
+    if name not in ctx.state.object_events:
+        ctx.state.object_events[name] = None  # while its own specification is looked at
+        ctx.state.object_events[name] = _declared(ctx, symbol, object_, name)
     return ir.EventRef(span=path.span, name=name)
 
 

@@ -97,7 +97,7 @@ def default_arguments(
             continue
         value = lower_expression(inside, default)
         if value is not None:
-            ctx.given.setdefault((node, parameter), value)
+            ctx.state.given.setdefault((node, parameter), value)
             arguments.append(
                 ir.Argument(
                     parameter=parameter.name, value=value, is_positional=False, span=node.span

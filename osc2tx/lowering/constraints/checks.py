@@ -19,7 +19,7 @@ def is_about_others(ctx: LoweringContext, constraint: Constraint) -> bool:
     """
     roots = {key[0] for key in constraint.operations.keys if len(key) > 1}
     is_relation = len(constraint.operations.keys) > 1
-    return bool(roots & (ctx.handed_in if is_relation else ctx.computed))
+    return bool(roots & (ctx.program.handed_in if is_relation else ctx.program.computed))
 
 
 def checks_itself(ctx: LoweringContext, invoked: ast.Invocation) -> bool:

@@ -69,8 +69,10 @@ class ConstraintLowering:
     @classmethod
     def of_scenario(cls, ctx: LoweringContext, scenario: Composed) -> ConstraintLowering:
         """Take the constraints of a scenario."""
-        found = ctx.analysis.types[scenario]
-        same = {each.constraint for f, each in ctx.same_actors.items() if f not in ctx.handed_in}
+        found = ctx.program.analysis.types[scenario]
+        same = {
+            each.constraint for f, each in ctx.same_actors.items() if f not in ctx.program.handed_in
+        }
         return cls(ctx, found, dict(found.domains_to_set()), _used=same)
 
     @classmethod
@@ -97,11 +99,11 @@ class ConstraintLowering:
         """
         if only.subject != key or not only.operations.is_plain or only.is_range:
             return None
-        if only not in self.ctx.constants:
+        if only not in self.ctx.state.constants:
             setting = self._setting(key, type_, (only,))
-            self.ctx.constants[only] = setting, self._written.get(key)
+            self.ctx.state.constants[only] = setting, self._written.get(key)
             return setting
-        setting, written = self.ctx.constants[only]
+        setting, written = self.ctx.state.constants[only]
         if written is not None:
             self._written[key] = written
         self._used.add(only)
@@ -182,7 +184,9 @@ class ConstraintLowering:
         for key in self.found.by_key:
             parameter = key[1] if len(key) > 2 and key[0] is node else None
             match parameter:
-                case sym.FieldSymbol(type=types.StructType()) if key[:2] not in self.ctx.given:
+                case sym.FieldSymbol(type=types.StructType()) if (
+                    key[:2] not in self.ctx.state.given
+                ):
                     found[parameter] = None
         yield from found
 

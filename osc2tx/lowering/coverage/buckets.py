@@ -96,7 +96,7 @@ class _Grading:
 
     def __init__(self, ctx: LoweringContext, scenario: Composed) -> None:
         self._ctx = ctx
-        self._found: TypeConstraints = ctx.analysis.types[scenario]
+        self._found: TypeConstraints = ctx.program.analysis.types[scenario]
         self._firm = [each.operations for each in self._found.firm]
         self._by_key: dict[Key, list[int]] = {}
         for index, operations in enumerate(self._firm):

@@ -60,14 +60,18 @@ def coverage_owners(ctx: LoweringContext, scenario: Composed) -> Iterator[Covera
     """
     lineage = tuple(supertypes(scenario))
     yield CoverageOwner(ctx, lineage, (), "")
-    special = ctx.analysis.types[scenario].special
+    special = ctx.program.analysis.types[scenario].special
     sampled = _SampledTypes(each for found in special.values() for each in found)
     for field in _fields(lineage):
-        if field not in ctx.handed_in and alias_of(ctx, field) is None and sampled.has(field.type):
+        if (
+            field not in ctx.program.handed_in
+            and alias_of(ctx, field) is None
+            and sampled.has(field.type)
+        ):
             name = field_name(ctx, field)
             value = ir.FieldRef(span=field.span, type=lower_type(field.type), name=name)
             yield from _of_object(ctx, special, sampled, (field,), value, name)
-    for name, shared in ctx.globals.items():
+    for name, shared in ctx.state.globals.items():
         _report(ctx, shared, f"global actor `{name}`")
 
 

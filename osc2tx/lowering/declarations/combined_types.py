@@ -42,7 +42,7 @@ def lineage(*types: TypeSymbol) -> tuple[str, ...]:
 
 def add_types(ctx: LoweringContext, types: tuple[TypeSymbol, ...], span: Span) -> None:
     """Note the types of an object, for the classes of the module."""
-    ctx.types.extend(types)
+    ctx.used.types.extend(types)
     if len(types) > 1:
         combined = ir.UserType(
             name=_name(types),
@@ -51,7 +51,7 @@ def add_types(ctx: LoweringContext, types: tuple[TypeSymbol, ...], span: Span) -
             is_actor=isinstance(types[0], sym.ActorSymbol),
             fields=(),
         )
-        ctx.combined.setdefault(combined.name, combined)
+        ctx.used.combined.setdefault(combined.name, combined)
 
 
 def _name(types: tuple[TypeSymbol, ...]) -> str:

@@ -67,9 +67,9 @@ class DeclarationLowering:
         They are in the order of the source.
         """
         lowered: dict[str, ir.Method | None] = {}
-        while missing := [name for name in self._ctx.methods if name not in lowered]:
+        while missing := [name for name in self._ctx.state.methods if name not in lowered]:
             for name in missing:
-                symbol = self._ctx.methods[name]
+                symbol = self._ctx.state.methods[name]
                 comments = () if symbol.node is None else statement_comments(symbol.node)
                 lowered[name] = lower_method(self._ctx, symbol, comments)
         methods = present(list(lowered.values()))
@@ -81,9 +81,9 @@ class DeclarationLowering:
         Each is a variable of the scenario that reads it: it samples while that runs.
         """
         lowered: dict[str, ir.Variable | None] = {}
-        while missing := [name for name in self._ctx.object_variables if name not in lowered]:
+        while missing := [name for name in self._ctx.state.object_variables if name not in lowered]:
             for name in missing:
-                field, object_ = self._ctx.object_variables[name]
+                field, object_ = self._ctx.state.object_variables[name]
                 assert isinstance(field.owner, sym.ActorSymbol | sym.StructSymbol)
                 inside = self._ctx.inside(Receiver(field.owner, object_))
                 node = field.node

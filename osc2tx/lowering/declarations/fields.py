@@ -106,14 +106,14 @@ class FieldLowering:
         It is not invoked, so it has only values; each is one of the scenario, `hop.n`.
         """
         if is_composed(behavior):
-            self._ctx.invoked.append(behavior)  # it is a part of this one, not one to run
+            self._ctx.state.invoked.append(behavior)  # it is a part of this one, not one to run
         for each in parameters_of(behavior):
             key = (field, each)
             if is_plain(each.type) and (
                 key in self._constraints.found.by_key or each.origin == "user"
             ):
                 declared = self._parameter(each, each.span, (), key)
-                self._ctx.drawn.append(declared)
+                self._ctx.state.drawn.append(declared)
 
     def _other_actor(
         self,
@@ -204,7 +204,7 @@ class FieldLowering:
             declared = self.lower(element, element.span, ())
             if declared is None:
                 return None
-            self._ctx.drawn.append(declared)
+            self._ctx.state.drawn.append(declared)
             type_ = lower_type(element.type)
             references.append(ir.FieldRef(span=element.span, type=type_, name=element.name))
         type_ = lower_type(symbol.type)
@@ -212,7 +212,7 @@ class FieldLowering:
 
     def _is_given(self, symbol: sym.FieldSymbol) -> bool:
         """Whether some invocation of the scenario gives a parameter a value."""
-        return symbol in self._ctx.handed_in
+        return symbol in self._ctx.program.handed_in
 
     def _parameter(
         self, field: sym.FieldSymbol, span: Span, comments: tuple[str, ...], key: Key | None = None

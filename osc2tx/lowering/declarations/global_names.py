@@ -16,7 +16,7 @@ def global_name(ctx: LoweringContext, parameter: sym.FieldSymbol) -> str:
     name = _name(ctx, parameter)
     if name in ctx.own_names:
         name = f"{ir.GLOBAL_MARK}{name}"
-    ctx.globals.setdefault(name, parameter)
+    ctx.state.globals.setdefault(name, parameter)
     return name
 
 

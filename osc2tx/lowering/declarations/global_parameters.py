@@ -45,9 +45,9 @@ class GlobalLowering:
 
     def lower(self) -> tuple[ir.Declaration, ...]:
         """Return the global parameters that were used so far; those of `constraints` included."""
-        while missing := [name for name in self._ctx.globals if name not in self._lowered]:
+        while missing := [name for name in self._ctx.state.globals if name not in self._lowered]:
             for name in missing:  # one global may be defined by another
-                self._lowered[name] = self._declarations(name, self._ctx.globals[name])
+                self._lowered[name] = self._declarations(name, self._ctx.state.globals[name])
         found = [d for declared in self._lowered.values() for d in declared]
         return tuple(sorted(found, key=lambda d: (d.span.source.name, d.span.start)))
 
@@ -68,11 +68,11 @@ class GlobalLowering:
             return self._path(name, symbol)
         own = self._own if self._is_constrained(symbol) else None
         constraints = own or ConstraintLowering.of_global(self._ctx, symbol)
-        before = len(self._ctx.drawn)
+        before = len(self._ctx.state.drawn)
         fields = FieldLowering(self._ctx, constraints)
         declaration = fields.lower(symbol, symbol.span, self._comments(symbol))
-        drawn = self._ctx.drawn[before:]
-        self._ctx.drawn[before:] = [
+        drawn = self._ctx.state.drawn[before:]
+        self._ctx.state.drawn[before:] = [
             each if isinstance(each, ir.Variable) else replace(each, is_global=True)
             for each in drawn
         ]

@@ -92,7 +92,7 @@ class ObjectLowering:
         """
         assert isinstance(field.type, types.ActorType | types.StructType)
         found = self._special((field,), field.type.symbol, field.span)
-        is_made_elsewhere = field in self._ctx.handed_in
+        is_made_elsewhere = field in self._ctx.program.handed_in
         for key, special in self._constraints.found.undecided:
             if key == (field,) and special.statements and not is_made_elsewhere:
                 self._ctx.unsupported(
@@ -129,7 +129,7 @@ class ObjectLowering:
         object_ = self._reference(field)
         looking = ObjectLowering(ctx, replace(self._constraints, ctx=ctx))
         looking._complete((field,), self.types_of(field), object_, looking._said((field,)))
-        is_open = (isinstance(d, ir.Parameter) and d.is_required for d in ctx.drawn)
+        is_open = (isinstance(d, ir.Parameter) and d.is_required for d in ctx.state.drawn)
         return ctx.sink.has_errors or any(is_open)
 
     def values(self, field: sym.FieldSymbol) -> tuple[ir.FieldValue, ...]:

@@ -95,7 +95,11 @@ def _is_sampled(type_: types.Type) -> bool:
 
 def user_fields(ctx: LoweringContext, symbol: TypeSymbol) -> Iterator[sym.FieldSymbol]:
     """Yield the fields of an own type that its base does not have."""
-    return (member for member in _fields(symbol) if _has_value(member) or member in ctx.mentioned)
+    return (
+        member
+        for member in _fields(symbol)
+        if _has_value(member) or member in ctx.program.mentioned
+    )
 
 
 def unused_fields(ctx: LoweringContext, symbol: TypeSymbol) -> Iterator[sym.FieldSymbol]:
@@ -110,7 +114,7 @@ def is_optional(ctx: LoweringContext, field: sym.FieldSymbol) -> bool:
     That does not depend on the files that import the file.
     """
     home = field.span.source.name
-    return not _has_value(field) and home not in ctx.mentioned.get(field, ())
+    return not _has_value(field) and home not in ctx.program.mentioned.get(field, ())
 
 
 def _fields(symbol: TypeSymbol) -> Iterator[sym.FieldSymbol]:
@@ -188,7 +192,7 @@ def object_default(
 
 def stated_default(ctx: LoweringContext, field: sym.FieldSymbol) -> ast.Expression | None:
     """Return the default that a type states for a field of its own."""
-    keep = ctx.default_keeps.get(field)
+    keep = ctx.program.default_keeps.get(field)
     if keep is not None:
         assert isinstance(keep.expression, ast.Binary)
         return keep.expression.right
@@ -197,7 +201,7 @@ def stated_default(ctx: LoweringContext, field: sym.FieldSymbol) -> ast.Expressi
 
 def class_default_keep(ctx: LoweringContext, field: sym.FieldSymbol) -> ast.KeepConstraint | None:
     """Return the constraint that is the default of a field in its class, if it is one."""
-    return None if class_default(ctx, field) is None else ctx.default_keeps.get(field)
+    return None if class_default(ctx, field) is None else ctx.program.default_keeps.get(field)
 
 
 def is_plain(type_: types.Type) -> bool:

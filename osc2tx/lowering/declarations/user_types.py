@@ -96,23 +96,19 @@ def _of_files(model: SemanticModel, kind: type[StatementT]) -> Iterator[Statemen
         yield from (each for each in file.statements if isinstance(each, kind))
 
 
-def lower_types(ctx: LoweringContext, used: Iterable[TypeSymbol]) -> tuple[ir.UserType, ...]:
+def lower_types(ctx: LoweringContext) -> tuple[ir.UserType, ...]:
     """Lower the types of declared objects that are not the library's, and all of the root file.
 
     Bases come first, and so do the types of fields, as far as they do not need each other. Of two
     types of one name that no object has, one is left out.
-
-    Args:
-        ctx: The checked program.
-        used: Types of declared objects.
     """
     symbols: dict[str, TypeSymbol] = {}
-    for symbol in used:
+    for symbol in ctx.used.types:
         _add(ctx, symbol, symbols, ())
     seen: set[TypeSymbol] = set()
     for symbol in (*symbols.values(), *_own_types(ctx)):
         _add_unused(ctx.quiet(), symbol, symbols, seen)
-    for combined in ctx.combined.values():
+    for combined in ctx.used.combined.values():
         if combined.name in symbols:
             _report_name(ctx, combined.name, combined.span)
     nodes = {_place(node.name.span): node for node in _declarations(ctx)}
@@ -122,7 +118,7 @@ def lower_types(ctx: LoweringContext, used: Iterable[TypeSymbol]) -> tuple[ir.Us
             lowered.append(_lower_type(ctx, each, nodes.get(_place(each.span))))
         else:
             lowered.append(_lower_extended(ctx, each))
-    return (*lowered, *ctx.combined.values())
+    return (*lowered, *ctx.used.combined.values())
 
 
 def _place(span: Span) -> tuple[str, int]:

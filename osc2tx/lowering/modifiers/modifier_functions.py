@@ -86,19 +86,20 @@ class _Functions:
 
     def _lower(self, modifier: sym.ModifierSymbol) -> ir.UserModifier | None:
         place = Place(model=self._ctx.model, owner=modifier, prefix=(), it=None)
-        ctx = replace(self._ctx.quiet().at(place), given={})
+        ctx = self._ctx.quiet().at(place)
+        ctx.state.given = {}  # its parameters have no values of an invocation
         parameters = []
         for field in parameters_of(modifier):
             parameters.append(self._parameter(ctx, field))
             type_ = parameters[-1].type
             reference = ir.ParameterRef(span=field.span, type=type_, name=field.name)
-            ctx.given[(field,)] = reference
+            ctx.state.given[(field,)] = reference
         applications = [s for s in modifier.statements if isinstance(s, ast.ModifierApplication)]
         calls = [call for each in applications for call in self._calls(ctx, each)]
         values = [argument.value for call in calls for argument in _arguments(call)]
         parts = [part for value in values for part in ir.walk(value)]
         is_open = any(isinstance(part, OF_THE_SCENARIO) for part in parts)
-        if not calls or ctx.drawn or ctx.sink.has_errors or is_open:
+        if not calls or ctx.state.drawn or ctx.sink.has_errors or is_open:
             return None
         return ir.UserModifier(
             name=modifier.name,

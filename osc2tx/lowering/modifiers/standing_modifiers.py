@@ -197,7 +197,7 @@ class StandingModifiers:
             return (), actor_type_of(owner)
         members = [
             *(m for each in (supertypes(owner) if owner else ()) for m in each.named(actor.name)),
-            *(each for name, each in self._ctx.globals.items() if name == actor.name),
+            *(each for name, each in self._ctx.state.globals.items() if name == actor.name),
             *(
                 each
                 for elements in self._ctx.model.elements.values()

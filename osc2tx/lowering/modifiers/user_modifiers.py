@@ -101,7 +101,7 @@ class ModifierLowering:
         parts = tuple(part for statement in callee.statements for part in inner.part(statement))
         if not parts:
             return ()
-        self.ctx.modifiers.append(callee)
+        self.ctx.used.modifiers.append(callee)
         application = application_of(callee, node, inner.values_of(callee))
         calls = [replace(p.call, applied=(application, *p.call.applied)) for p in parts]
         calls[0] = replace(calls[0], comments=(*statement_comments(node), *calls[0].comments))
@@ -142,14 +142,16 @@ class ModifierLowering:
     def values_of(self, callee: sym.ModifierSymbol) -> dict[sym.FieldSymbol, ir.Expression]:
         """Return the result of `bind`."""
         chain = (*self.within, *self.chain)
-        values = ((each, self.ctx.given.get((*chain, each))) for each in parameters_of(callee))
+        values = (
+            (each, self.ctx.state.given.get((*chain, each))) for each in parameters_of(callee)
+        )
         return {parameter: value for parameter, value in values if value is not None}
 
     def bind(self, callee: sym.ModifierSymbol) -> None:
         """Determine the values of the parameters here."""
         for parameter in parameters_of(callee):
             key: Key = (*self.within, *self.chain, parameter)
-            if key in self.ctx.given:
+            if key in self.ctx.state.given:
                 continue
             setting = self.constraints.setting(key, parameter.type)
             value = setting.value
@@ -158,7 +160,7 @@ class ModifierLowering:
                 name, type_ = f"{self.what}.{parameter.name}", lower_type(parameter.type)
                 value = self.ctx.draw(name, domain, type_, parameter.span)
             if value is not None:
-                self.ctx.given[key] = value
+                self.ctx.state.given[key] = value
                 continue
             self.ctx.unsupported(
                 "OSC501",
@@ -196,7 +198,8 @@ class ModifierLowering:
         used = (place.locate(n) for n in nodes_below(node) if isinstance(n, ast.NameExpression))
         own = [key for key in used if key and key[:-1] == (*self.within, *self.chain)]
         return all(
-            key in self.ctx.given or (isinstance(key[-1], sym.Symbol) and key[-1].name == "actor")
+            key in self.ctx.state.given
+            or (isinstance(key[-1], sym.Symbol) and key[-1].name == "actor")
             for key in own
         )
 

@@ -29,21 +29,21 @@ def with_any_start(
     """
     if not later:
         return body
-    read = Counter(_names(body)) + Counter(_names(others)) + Counter(_names(ctx.drawn))
+    read = Counter(_names(body)) + Counter(_names(others)) + Counter(_names(ctx.state.drawn))
     starts = Counter(name for node in ir.invocations(body) for name in drawn_starts(ctx, node))
     alone = {name for name in later if read[name] == starts[name]}
     found = {
         each.name: each.domain
-        for each in ctx.drawn
+        for each in ctx.state.drawn
         if isinstance(each, ir.Parameter) and each.name in alone and each.domain is not None
     }
-    ctx.drawn[:] = [each for each in ctx.drawn if each.name not in found]
+    ctx.state.drawn[:] = [each for each in ctx.state.drawn if each.name not in found]
     return _rewritten(body, found)
 
 
 def drawn_starts(ctx: LoweringContext, node: ir.Invoke) -> Iterator[str]:
     """Yield the drawn values of ranges that an action has to meet at its start."""
-    drawn = {each.name: each for each in ctx.drawn if isinstance(each, ir.Parameter)}
+    drawn = {each.name: each for each in ctx.state.drawn if isinstance(each, ir.Parameter)}
     for modifier in node.modifiers:
         for argument in modifier.arguments if modifier.at == "start" else ():
             value = argument.value

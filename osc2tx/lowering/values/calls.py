@@ -112,7 +112,7 @@ def _lower_own(
     is_of_type = callee.owner is not None and not is_composed(callee.owner)
     if is_of_type and callee.node is not None and listed_arguments(callee.node.body):
         name = method_name(callee)
-        ctx.methods.setdefault(name, callee)
+        ctx.state.methods.setdefault(name, callee)
     elif is_of_type and callee.owner is not None:
         name = method_name(callee)
         base = _receiver(ctx, node, binding.receiver)
@@ -121,7 +121,7 @@ def _lower_own(
         inside = ctx.inside(Receiver(callee.owner, base))
         object_ = ir.Argument(parameter="", value=base, is_positional=True, span=base.span)
         arguments = (object_, *arguments)
-        ctx.methods.setdefault(name, callee)
+        ctx.state.methods.setdefault(name, callee)
     arguments += tuple(_late_defaults(inside, callee, arguments))
     return ir.MethodCall(
         span=node.span,
@@ -165,7 +165,7 @@ def _in_place(
             help="declare it in the scenario",
         )
         return None
-    ctx = replace(ctx, expanding=(*ctx.expanding, callee.name))
+    ctx = ctx.in_method(callee.name)
     for argument in _in_order(ctx, callee, given):
         ctx = ctx.with_local(argument.parameter, argument.value)
     return ctx.lower(body.expression)

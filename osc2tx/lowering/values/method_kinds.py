@@ -111,7 +111,7 @@ def overriding_methods(
     owner = method.owner
     if not isinstance(owner, sym.ActorSymbol | sym.StructSymbol):
         return ()
-    used = (t for object_ in ctx.object_types for t in supertypes(object_))
+    used = (t for object_ in ctx.program.object_types for t in supertypes(object_))
     below = [t for t in dict.fromkeys(used) if t is not owner and is_subtype(t, owner)]
     below.sort(key=lambda type_: -len(list(supertypes(type_))))
     found = (type_.members.get(method.name) for type_ in below)

@@ -27,19 +27,19 @@ def method_name(method: sym.MethodSymbol) -> str:
 
 def is_pure(ctx: LoweringContext, method: sym.MethodSymbol) -> bool:
     """Whether a method computes its result from its arguments and from constants alone."""
-    if method not in ctx.purity:
-        known = set(ctx.purity)
-        ctx.purity[method] = True  # a recursive method is as pure as the rest of it
+    if method not in ctx.used.purity:
+        known = set(ctx.used.purity)
+        ctx.used.purity[method] = True  # a recursive method is as pure as the rest of it
         lowered = lower_method(ctx.quiet(), method)
-        ctx.purity[method] = (
+        ctx.used.purity[method] = (
             lowered is not None
             and lowered.expression is not None
             and not ir.is_live(lowered.expression)
         )
-        if not ctx.purity[method]:
-            for other in ctx.purity.keys() - known - {method}:
-                del ctx.purity[other]  # found out by a wrong assumption
-    return ctx.purity[method]
+        if not ctx.used.purity[method]:
+            for other in ctx.used.purity.keys() - known - {method}:
+                del ctx.used.purity[other]  # found out by a wrong assumption
+    return ctx.used.purity[method]
 
 
 def lower_method(
@@ -166,7 +166,7 @@ def _call(
         *(ir.ParameterRef(span=span, type=p.type, name=p.name) for p in parameters[1:]),
     )
     name = method_name(method)
-    ctx.methods.setdefault(name, method)
+    ctx.state.methods.setdefault(name, method)
     return ir.MethodCall(
         span=span,
         type=lower_type(method.result),

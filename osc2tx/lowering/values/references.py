@@ -63,7 +63,7 @@ def alias_of(ctx: LoweringContext, field: sym.FieldSymbol) -> ast.Expression | N
     """
     if isinstance(field.default, ast.StringLiteral):
         return ctx.model.quantities.get(field.default)
-    return None if field in ctx.handed_in else other_actor(ctx, field)
+    return None if field in ctx.program.handed_in else other_actor(ctx, field)
 
 
 def other_actor(ctx: LoweringContext, field: sym.FieldSymbol) -> ast.NameExpression | None:
@@ -84,7 +84,7 @@ def lower_member(
     type_: ir.ValueType,
 ) -> ir.Expression | None:
     """Lower `base.name`."""
-    event = ctx.event_fields.get(id(ctx.model.symbol_of(base)))
+    event = ctx.state.event_fields.get(id(ctx.model.symbol_of(base)))
     if event is not None:
         path, owner = event
         return ir.EventArgument(
@@ -125,7 +125,7 @@ def _of_label(
     type_: ir.ValueType,
 ) -> ir.Expression | None:
     """Return a parameter of a labelled member: the given value, or its choice."""
-    given = ctx.given.get((label.node, field))
+    given = ctx.state.given.get((label.node, field))
     if given is not None:
         return replace(given, span=node.span)
     binding = ctx.model.bindings.get(label.node)
@@ -148,7 +148,7 @@ def member_of(
     path = path_of(base) if isinstance(field.default, ast.SampleExpression) else None
     if path is not None and not is_composed(field.owner):
         name = f"{path}.{field.name}"
-        ctx.object_variables.setdefault(name, (field, base))
+        ctx.state.object_variables.setdefault(name, (field, base))
         return ir.FieldRef(span=span, type=type_, name=name, is_variable=True)
     if isinstance(base, ir.ScenarioSelf):
         return ir.FieldRef(span=span, type=type_, name=field.name)
@@ -190,8 +190,8 @@ def lower_key(ctx: LoweringContext, key: Key, span: Span) -> ir.Expression | Non
         expression = ir.FieldRef(span=span, type=type_, name=name)
     elif ctx.actor is not None and (at := _place_of_actor(key)) is not None:
         expression, rest = ctx.actor, list(key[at + 1 :])
-    elif lengths := [n for n in range(2, len(key) + 1) if key[:n] in ctx.given]:
-        expression, rest = ctx.given[key[: lengths[0]]], list(key[lengths[0] :])
+    elif lengths := [n for n in range(2, len(key) + 1) if key[:n] in ctx.state.given]:
+        expression, rest = ctx.state.given[key[: lengths[0]]], list(key[lengths[0] :])
     else:
         ctx.unsupported("OSC502", span, "the subject of this constraint has no value")
         return None
@@ -227,7 +227,7 @@ def _given(ctx: LoweringContext, node: ast.Expression) -> ir.Expression | None:
     symbol = ctx.model.symbol_of(node)
     own = None if symbol is None else (symbol,)
     key = own if ctx.place is None else ctx.place.locate(node)
-    return None if key is None else ctx.given.get(key)
+    return None if key is None else ctx.state.given.get(key)
 
 
 def _base_of(ctx: LoweringContext, field: sym.FieldSymbol) -> ir.Expression | None:

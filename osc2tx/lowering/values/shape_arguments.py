@@ -90,7 +90,7 @@ def _is_shape(type_: sym.TypeSymbol) -> bool:
 
 
 def _with_methods(ctx: LoweringContext, argument: ir.Argument, node: ast.Expression) -> ir.Argument:
-    type_ = next((each for each in ctx.types if each.name == argument.value.type.name), None)
+    type_ = next((each for each in ctx.used.types if each.name == argument.value.type.name), None)
     if type_ is None:
         written = ctx.model.type_of(node)
         type_ = written.symbol if isinstance(written, types.StructType) else None
@@ -109,7 +109,7 @@ def _with_methods(ctx: LoweringContext, argument: ir.Argument, node: ast.Express
         return argument
     for method in (compute, duration):
         if method is not None:
-            ctx.methods.setdefault(_name(method), method)
+            ctx.state.methods.setdefault(_name(method), method)
     kinds = (each.name for each in supertypes(type_) if each.origin == "library")
     own = ir.UserShape(
         span=argument.value.span,

@@ -91,7 +91,7 @@ def lower_cast(ctx: LoweringContext, node: ast.Cast) -> ir.Expression | None:
             if is_subtype(given, wanted):
                 return operand
             if wanted.origin == "user":
-                ctx.types.append(wanted)
+                ctx.used.types.append(wanted)
             return ir.Downcast(span=span, type=type_, operand=operand)
     if source == target:
         return operand
