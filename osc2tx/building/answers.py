@@ -22,7 +22,7 @@ from osc2tx_shared.text import OutputError, StreamName, explain, is_watched, rep
 
 FORMAT = 1
 MOST_FILES = 32  # in each of the 256 folders
-COMMAND = "check"
+COMMAND, NO_CACHE = "check", "--no-cache"
 # What else decides how an answer looks, or who gives it.
 _VARIABLES = ("NO_COLOR", "FORCE_COLOR", "OSC2TX_CACHE_DIR", "_OSC2TX_COMPLETE")
 
@@ -36,7 +36,8 @@ class Answer:
         Args:
             arguments: The command line, the command first.
         """
-        folder = cache_folder() if list(arguments[:1]) == [COMMAND] else None
+        is_kept = list(arguments[:1]) == [COMMAND] and NO_CACHE not in arguments
+        folder = cache_folder() if is_kept else None
         stamp = tool_stamp(folder) if folder else None
         self._place: Path | None = None
         if folder is not None and stamp is not None:

@@ -6,7 +6,7 @@ from typing import assert_never
 
 from osc2tx.compilation.driver import Compilation
 from osc2tx.options import ProductName
-from osc2tx.syntax import dump_ast
+from osc2tx.syntax.dump import dump_ast
 
 
 def dump_product(compilation: Compilation, product: ProductName) -> str | None:
@@ -28,12 +28,12 @@ def dump_product(compilation: Compilation, product: ProductName) -> str | None:
 
 
 def _dump_model(compilation: Compilation) -> str | None:
-    from osc2tx.semantics import dump_model
+    from osc2tx.semantics.dump import dump_model
 
     return None if compilation.model is None else dump_model(compilation.model)
 
 
 def _dump_ir(compilation: Compilation) -> str | None:
-    from osc2tx.ir import dump_ir
+    from osc2tx.ir.dump import dump_ir
 
     return None if compilation.ir is None else dump_ir(compilation.ir)

@@ -54,7 +54,6 @@ from osc2tx.ir.declarations import (
     Variable,
     setting_name,
 )
-from osc2tx.ir.dump import dump_ir
 from osc2tx.ir.endings import ends_with_open, goals_of, is_instant, is_open, lasts_until_event
 from osc2tx.ir.expression_text import show, show_arguments
 from osc2tx.ir.expressions import (

@@ -7,12 +7,14 @@ import re
 from osc2tx.diagnostics import Span
 
 MAX_LENGTH = 90
+_BROKEN_BRACKET = re.compile(r"(?<=[(\[])\s*\n\s*|\s*\n\s*(?=[)\]])")
+_BLANKS = re.compile(r"\s+")
 
 
 def condensed(text: str) -> str:
     """Return text on one line: blanks for white space, none where a bracket was broken."""
-    joined = re.sub(r"(?<=[(\[])\s*\n\s*|\s*\n\s*(?=[)\]])", "", text)
-    return re.sub(r"\s+", " ", joined)
+    joined = _BROKEN_BRACKET.sub("", text) if "\n" in text else text  # most are on one line
+    return _BLANKS.sub(" ", joined)
 
 
 def shorten(text: str) -> str:

@@ -2,7 +2,7 @@
 
 Input: an `ast.File`, and a callable that loads the files it imports. Output: a `SemanticModel`
 (`model`, over `symbols` and `types`) and diagnostics OSC2xx - OSC4xx, and OSC6xx for relaxations of
-a dialect. `dump_model` (`dump`) prints a model.
+a dialect. `dump` prints a model.
 
 Order of events, with the modules that do the work; `builder` runs them:
 
@@ -28,7 +28,6 @@ after it is built.
 
 from osc2tx.semantics.builder import ModelBuilder
 from osc2tx.semantics.dialects import ASAM, CARLA, DIALECTS, Dialect
-from osc2tx.semantics.dump import dump_model
 from osc2tx.semantics.model import Binding, SemanticModel
 from osc2tx.semantics.units import to_si
 
@@ -40,6 +39,5 @@ __all__ = [
     "Dialect",
     "ModelBuilder",
     "SemanticModel",
-    "dump_model",
     "to_si",
 ]

@@ -12,7 +12,7 @@ Stages, in order:
    tree of the generated parser (`_antlr`, made from `grammar/OpenSCENARIO2.g4`).
 4. `ASTTransformer` (`ast_transformer`, `ast_builder`, `literals`): tree to AST (`ast`).
 
-`dump_ast` (`dump`) prints an AST as text; `packed_ast` turns one into plain data and back.
+`dump` prints an AST as text; `packed_ast` turns one into plain data and back.
 
 Invariants: no input raises or recurses without bound; one mistake gives one message and costs one
 statement; every stage is linear in the size of the text; only this package imports antlr4, for
@@ -25,9 +25,8 @@ from pathlib import Path
 from osc2tx.diagnostics import DiagnosticSink, SourceFile, Span
 from osc2tx.support.recursion import room_for_trees
 from osc2tx.syntax import ast
-from osc2tx.syntax.dump import dump_ast
 
-__all__ = ["dump_ast", "parse", "read_source"]
+__all__ = ["parse", "read_source"]
 
 _RESOLVE = "keep one of the two versions, or both, and remove the three lines with markers"
 

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from osc2tx import ir
 from osc2tx.compilation.driver import Compilation
+from osc2tx.ir.dump import dump_ir
 from osc2tx.options import CompileOptions
 
 HERE = Path(__file__).parent
@@ -46,7 +46,7 @@ def compile_case(path: Path, options: CompileOptions) -> Compilation:
 def test_ir(case: Path, golden: Golden) -> None:
     compilation = compile_case(case / "input.osc", options_for(case))
     assert compilation.ir is not None
-    golden(ir.dump_ir(compilation.ir), case / "expected" / "ir.txt")
+    golden(dump_ir(compilation.ir), case / "expected" / "ir.txt")
 
 
 @pytest.mark.parametrize("case", cases("py_trees"), ids=case_id)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import math
 import random
 from collections.abc import Callable, Mapping
@@ -104,5 +103,7 @@ def check_known(option: str, what: str, given: Any, known: Any) -> None:
 
 def near(name: str, known: Any) -> str:
     """Return a question that offers similar names, or nothing."""
-    found = difflib.get_close_matches(name, sorted(known), n=3)
+    from difflib import get_close_matches  # only needed where something is wrong
+
+    found = get_close_matches(name, sorted(known), n=3)
     return f"; did you mean {' or '.join(found)}?" if found else ""

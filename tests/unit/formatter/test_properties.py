@@ -13,7 +13,8 @@ from hypothesis import strategies as st
 from osc2tx.diagnostics import DiagnosticSink, SourceFile
 from osc2tx.formatter import format_source
 from osc2tx.stdlib import library_source
-from osc2tx.syntax import dump_ast, parse
+from osc2tx.syntax import parse
+from osc2tx.syntax.dump import dump_ast
 
 SCENARIOS = sorted((Path(__file__).parents[3] / "scenarios").rglob("*.osc"))
 _EXTENT = re.compile(r"<[^<>\n]*>$|@\d+:\d+-[\d:]+", re.MULTILINE)

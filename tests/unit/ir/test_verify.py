@@ -6,6 +6,7 @@ import pytest
 
 from osc2tx import ir
 from osc2tx.diagnostics import InternalCompilerError, SourceFile, Span
+from osc2tx.ir.dump import dump_ir
 
 SPAN = Span(SourceFile("case.osc", "scenario case:\n"), 0, 8)
 SPEED = ir.ValueType(ir.Kind.QUANTITY, "speed")
@@ -103,7 +104,7 @@ def test_an_actor_must_act() -> None:
 
 
 def test_the_dump_shows_every_node_with_its_line() -> None:
-    assert ir.dump_ir(GOOD) == (
+    assert dump_ir(GOOD) == (
         "module case.osc (standard 2.1, dialect asam, one_of race)\n"
         "  scenario case @1\n"
         "    event go @1\n"

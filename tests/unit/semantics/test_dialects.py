@@ -11,7 +11,6 @@ from osc2tx.compilation.driver import Compilation
 from osc2tx.diagnostics import Severity, SourceFile
 from osc2tx.diagnostics.render import render_text
 from osc2tx.options import CompileOptions
-from osc2tx.semantics import dump_model
 from osc2tx.semantics.declarations.library import shared_library
 from osc2tx.semantics.dialects import (
     BEHAVIOR_ALIASES,
@@ -24,6 +23,7 @@ from osc2tx.semantics.dialects import (
     TYPE_ALIASES,
     UNIT_ALIASES,
 )
+from osc2tx.semantics.dump import dump_model
 from osc2tx.semantics.names.member_lookup import member_names
 from osc2tx.semantics.symbols import (
     ActionSymbol,

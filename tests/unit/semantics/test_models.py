@@ -7,7 +7,8 @@ import pytest
 
 from osc2tx.diagnostics import SourceFile
 from osc2tx.diagnostics.render import render_text
-from osc2tx.semantics import SemanticModel, dump_model
+from osc2tx.semantics import SemanticModel
+from osc2tx.semantics.dump import dump_model
 from osc2tx.semantics.types import ERROR
 from tests.unit.semantics.support import build, build_file
 

@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from osc2tx.semantics import dump_model
+from osc2tx.semantics.dump import dump_model
 from osc2tx.semantics.symbols import EnumSymbol
 from tests.unit.semantics.support import build_text, codes
 

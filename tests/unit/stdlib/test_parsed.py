@@ -7,12 +7,14 @@ import pytest
 
 from osc2tx import stdlib
 from osc2tx.diagnostics import SourceFile
-from osc2tx.semantics import DIALECTS, ModelBuilder, dump_model
+from osc2tx.semantics import DIALECTS, ModelBuilder
 from osc2tx.semantics.builder import DiagnosticSink
 from osc2tx.semantics.declarations import library
+from osc2tx.semantics.dump import dump_model
 from osc2tx.stdlib import LIBRARY, TYPES, library_file, library_source, parse_library_file, parsed
 from osc2tx.stdlib.parsed import load_parsed
-from osc2tx.syntax import dump_ast, parse
+from osc2tx.syntax import parse
+from osc2tx.syntax.dump import dump_ast
 from osc2tx.syntax.packed_ast import PackingError, pack, unpack
 from tools.make_library import PRELUDES, render
 

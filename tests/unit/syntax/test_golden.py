@@ -7,7 +7,8 @@ import pytest
 
 from osc2tx.diagnostics import DiagnosticSink
 from osc2tx.diagnostics.render import render_text
-from osc2tx.syntax import dump_ast, parse, read_source
+from osc2tx.syntax import parse, read_source
+from osc2tx.syntax.dump import dump_ast
 
 GOLDEN = Path(__file__).parents[2] / "golden"
 AST_CASES = sorted(path.parent for path in (GOLDEN / "ast").glob("*/input.osc"))

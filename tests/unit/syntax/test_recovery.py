@@ -4,7 +4,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from osc2tx.syntax import ast, dump_ast
+from osc2tx.syntax import ast
+from osc2tx.syntax.dump import dump_ast
 from osc2tx.syntax.tokens import KEYWORDS, PUNCTUATION
 from tests.unit.syntax.helpers import clean, parsed, reports
 

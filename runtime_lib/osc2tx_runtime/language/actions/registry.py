@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import functools
 import inspect
 import re
@@ -167,7 +166,9 @@ class MethodRegistry:
 
     def near(self, kinds: Iterable[str | None], name: str) -> tuple[str, ...]:
         """Return up to three method names that are similar to `name`."""
-        return tuple(difflib.get_close_matches(name, self.names(kinds), n=3))
+        from difflib import get_close_matches  # only needed where something is wrong
+
+        return tuple(get_close_matches(name, self.names(kinds), n=3))
 
     def bind(self, actor: BaseActor | None, name: str) -> Callable[..., BaseAction]:
         """Return the constructor of the action `name`, for one actor or without one.

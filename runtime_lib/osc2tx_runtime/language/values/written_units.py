@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import math
 import re
 from typing import Any, TypeAlias
@@ -99,7 +98,9 @@ def read_value(name: str, text: str, unit: Unit | None) -> float:
     if unit is not None and word == unit.name:
         return value * unit.factor + unit.offset
     if word not in _TYPES:
-        near = difflib.get_close_matches(word, _TYPES if unit is None else _units_like(unit), n=2)
+        from difflib import get_close_matches  # only needed where something is wrong
+
+        near = get_close_matches(word, _TYPES if unit is None else _units_like(unit), n=2)
         hint = f"; did you mean {' or '.join(near)}?" if near else f"; {_how(unit)}"
         raise SettingsError(f"{wrong}: there is no unit {word}{hint}")
     if unit is None or _TYPES[word] != unit.type:
