@@ -13,9 +13,9 @@ from osc2tx.backends.xosc.actions.registry import action, apply_modifiers, to_go
 from osc2tx.backends.xosc.actions.speed.courses import hold_speed
 from osc2tx.backends.xosc.actions.speed.speed_changes import change_speed, jump_to
 from osc2tx.backends.xosc.actions.speed.speed_modifiers import time_to_cover
-from osc2tx.backends.xosc.facts.actors import FASTEST, TOP_SPEED, Pace, course_of_speed
+from osc2tx.backends.xosc.facts.actors import FASTEST, Pace, course_of_speed
 from osc2tx.backends.xosc.state import LONGITUDINAL, known
-from osc2tx.losses.entries import Inexpressible, Remedy
+from osc2tx.losses.entries import Inexpressible
 
 WAYS = {"along", "along_trajectory"}
 """Modifiers that say where to go."""
@@ -26,7 +26,6 @@ def _drive(leaf: Leaf) -> Performance:
     if leaf.state.pose is not None and leaf.member.walks:
         return _walk(leaf)
     changes = apply_modifiers(leaf)
-    _note_open_speed(leaf)
     goals = [name for name in ir.goals_of(leaf.node) if name != "distance"]
     ends: Ending = "goal" if leaf.duration is None and goals else "open"
     return Performance(changes, ends, time_to_cover(leaf), leaf.reached)
@@ -97,21 +96,3 @@ def _remain_stationary(leaf: Leaf) -> Performance:
     if leaf.member.walks:
         return Performance((stand(leaf),), "open")
     return Performance((change_speed(leaf, 0.0, FASTEST), *apply_modifiers(leaf)), "open")
-
-
-_BESIDE_SPEED = ("keep_lane", "lane", "lateral", "change_lane")
-"""Modifiers that say nothing of the speed."""
-
-
-def _note_open_speed(leaf: Leaf) -> None:
-    """Report that a driver who is told no speed slows down for bends, which no XML says."""
-    roads, speed = leaf.ctx.roads, leaf.state.speed
-    is_told = any(call.name not in _BESIDE_SPEED for call in leaf.node.modifiers)
-    if roads is None or leaf.member.walks or is_told:
-        return
-    fastest = TOP_SPEED if speed is None else max(map(abs, speed))
-    if fastest**2 * roads.sharpest_bend > leaf.limits.lateral:
-        leaf.arguments.doubt(
-            "no speed is stated: it slows down for bends in the world, but not in the XML",
-            Remedy(instead="`keep_speed()` holds the speed in both"),
-        )

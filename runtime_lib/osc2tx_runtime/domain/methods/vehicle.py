@@ -153,7 +153,7 @@ class VehicleMethods:
     ) -> Behaviour:
         """Drive as the modifiers state (§8.8.3.1).
 
-        Without modifiers along the lane at the present speed, slower in bends.
+        Without modifiers along the lane at the present speed.
         """
 
     def follow_lane(

@@ -35,13 +35,6 @@ class ConstantAcceleration:
         return PENDING
 
 
-class AssignedSpeed(ConstantAcceleration):
-    """A speed at one instant; the time after it is open."""
-
-    def __init__(self, speed: float) -> None:
-        super().__init__(0.0, speed)
-
-
 def acceleration_profile(
     command: AccelerationChange, start: float, limits: Limits
 ) -> Linear | Quintic:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from osc2tx_runtime.world.step_inputs import Outlook
 
-from .acceleration import AccelerationRun, AssignedSpeed, ConstantAcceleration
+from .acceleration import AccelerationRun, ConstantAcceleration
 from .execution import Longitudinal, ProfileRun
 
 _PIECES = 64  # intervals between samples of the speed
@@ -22,9 +22,7 @@ def outlook_of(run: Longitudinal | None, steps: int, dt: float, *, moved: bool) 
     Returns:
         None if the command does not determine it, or depends on other actors.
     """
-    if isinstance(run, AssignedSpeed) or not isinstance(
-        run, ProfileRun | ConstantAcceleration | AccelerationRun
-    ):
+    if not isinstance(run, ProfileRun | ConstantAcceleration | AccelerationRun):
         return None
     first, pieces = (-1 if moved else 0), min(steps, _PIECES)
     speeds = [run.foreseen(first + steps * i / pieces, dt) for i in range(pieces + 1)]

@@ -16,11 +16,12 @@ from osc2tx_runtime.world.commands import (
     Turn,
 )
 from osc2tx_runtime.world.geometry.lane_return import turn_from
+from osc2tx_runtime.world.geometry.profiles import Linear
 from osc2tx_runtime.world.lateral.attitude_control import Turning
 from osc2tx_runtime.world.lateral.curve_following import Replay, TimedReplay, course_of
 from osc2tx_runtime.world.lateral.execution import HoldOffset, Impossible, Shift, lateral_of
 from osc2tx_runtime.world.lateral.route_following import Way
-from osc2tx_runtime.world.longitudinal.acceleration import AssignedSpeed, ConstantAcceleration
+from osc2tx_runtime.world.longitudinal.acceleration import ConstantAcceleration
 from osc2tx_runtime.world.longitudinal.collision_avoidance import Cautious
 from osc2tx_runtime.world.longitudinal.execution import ProfileRun, acceleration_of, longitudinal_of
 from osc2tx_runtime.world.longitudinal.gap_control import ArrivalRun
@@ -36,7 +37,7 @@ from osc2tx_shared.classes import dataclass
 
 from .actor_step import MovingActor
 
-STEADY = frozenset({type(None), AssignedSpeed, ConstantAcceleration, HoldOffset, ProfileRun, Shift})
+STEADY = frozenset({type(None), ConstantAcceleration, HoldOffset, ProfileRun, Shift})
 """Kinds of executions that cannot fail."""
 
 
@@ -99,9 +100,7 @@ class CommandedActor(MovingActor):
         if self.tracking is not None:
             self.tracking.forget(LONGITUDINAL)
         if command is None:
-            if self._speed is not None:
-                self._speed = None
-                self._open.forget()
+            self._speed = None
             return
         slips = self.wheels is not None and self.wheels.slipping
         now = self.reference.a if slips else acceleration_of(self._speed, self.reference)
@@ -109,15 +108,12 @@ class CommandedActor(MovingActor):
         self._speed = longitudinal_of(command, state, self.limits, self.route)
 
     def go_on_with(self, speed: float, acceleration: float) -> None:
-        """Continues from an assigned speed (m/s) and acceleration (m/s^2) until the next command.
-
-        A speed alone holds at this instant; the time after it is open.
-        """
+        """Continues from an assigned speed (m/s), at an acceleration (m/s^2), up to a command."""
         self.upset()
-        self._open.forget()
-        self._speed = (
-            ConstantAcceleration(acceleration, speed) if acceleration else AssignedSpeed(speed)
-        )
+        if acceleration:
+            self._speed = ConstantAcceleration(acceleration, speed)
+        else:
+            self._speed = ProfileRun(Linear(speed, speed, 0.0))
 
     def pursue_side(self, command: Command | None, road_map: RoadMap) -> None:
         """Executes a lateral command; None keeps the lane, or returns to one."""

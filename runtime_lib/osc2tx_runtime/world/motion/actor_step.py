@@ -13,7 +13,6 @@ from osc2tx_runtime.world.geometry.lane_neighbours import lane_under
 from osc2tx_runtime.world.geometry.seam_smoothing import crossed
 from osc2tx_runtime.world.grip.friction import curvature_ahead
 from osc2tx_runtime.world.lateral.execution import SIDEWAYS, HoldOffset
-from osc2tx_runtime.world.longitudinal.acceleration import AssignedSpeed
 from osc2tx_runtime.world.longitudinal.execution import ProfileRun, longitudinal_of
 from osc2tx_runtime.world.longitudinal.position_control import PlacedRun
 from osc2tx_runtime.world.state import ActorState
@@ -36,10 +35,7 @@ class MovingActor(MovingBody):
             setting_out = SpeedChange(cruise_of(self.spec.kind))
             self._speed = longitudinal_of(setting_out, state, self.limits, self.route)
         run = self._stopping or self._speed
-        if run is None or isinstance(run, AssignedSpeed):
-            speed = self._unsaid(inputs)
-        else:
-            speed = run.speed_after(state, inputs)
+        speed = state.v if run is None else run.speed_after(state, inputs)
         path: float | None = self._speed.path if isinstance(self._speed, PlacedRun) else None
         if self.wheels is not None and self.wheels.road != "dry":
             way = curvature_ahead(road_map, self.bound, self.route)
@@ -59,13 +55,6 @@ class MovingActor(MovingBody):
         if path == 0.0 and self._turning is None:
             return self._standing(speed, dt)
         return self._straight_on(speed, path, road_map, dt)
-
-    def _unsaid(self, inputs: StepInputs) -> float:
-        """Speed at the next step without a command."""
-        state = self.reference
-        if self.bound is None or self._unphysical or not state.shape.wheelbase or state.v <= 0.0:
-            return state.v
-        return self._open.speed_after(state, inputs, self.route, self.limits)
 
     def _along_lane(
         self, speed: float, path: float, road_map: RoadMap, inputs: StepInputs
@@ -127,11 +116,7 @@ class MovingActor(MovingBody):
     def _stays(self) -> bool:
         """Whether an actor at standstill remains there until a new command."""
         run = self._speed
-        held = (
-            run is None
-            or isinstance(run, AssignedSpeed)
-            or (isinstance(run, ProfileRun) and run.progress().done)
-        )
+        held = run is None or (isinstance(run, ProfileRun) and run.progress().done)
         return held and self.is_steady() and isinstance(self._side, HoldOffset)
 
     def _goes_on(self, state: ActorState) -> bool:

@@ -6,7 +6,7 @@ import math
 from dataclasses import field
 
 from osc2tx_runtime.opendrive import DRIVING, LaneCursor, LanePosition, Pose, RoadMap, Route
-from osc2tx_runtime.world.actor_dimensions import COMFORT, TYRES, Limits
+from osc2tx_runtime.world.actor_dimensions import TYRES, Limits
 from osc2tx_runtime.world.geometry.attitude import LEVEL, Tilt, tilt_on
 from osc2tx_runtime.world.geometry.lane_neighbours import offset_from
 from osc2tx_runtime.world.geometry.lane_return import abreast, lane_near, turn_from
@@ -27,7 +27,6 @@ from osc2tx_runtime.world.longitudinal.execution import Longitudinal
 from osc2tx_runtime.world.motion.cruise import Cruise
 from osc2tx_runtime.world.protocol import ActorSpec
 from osc2tx_runtime.world.state import ActorState
-from osc2tx_runtime.world.step_inputs import StepInputs
 from osc2tx_shared.classes import dataclass
 
 CRUISE = {"person": 1.4, "animal": 1.4, "movable_object": 1.4}
@@ -50,39 +49,6 @@ ANY_LANE = DRIVING | {
 _NEAR = 0.5  # m outside a lane within which an actor is still on it
 STILL = 1e-9  # m/s
 ALIGNED = 0.3  # rad: a vehicle with a smaller angle to its lane is in it again
-
-
-class OpenSpeed:
-    """A driver without a command for the speed."""
-
-    __slots__ = ("_held",)
-
-    def __init__(self) -> None:
-        self._held = 0.0  # m/s to regain after a bend; none if not above the present speed
-
-    def forget(self) -> None:
-        """A speed was stated."""
-        self._held = 0.0
-
-    def speed_after(
-        self, me: ActorState, inputs: StepInputs, route: Route | None, limits: Limits
-    ) -> float:
-        """Speed (m/s) at the next step.
-
-        Args:
-            me: The actor.
-            inputs: The snapshot.
-            route: Its route at forks.
-            limits: Limits of the vehicle on the present road.
-        """
-        held = max(self._held, me.v)
-        fastest = inputs.bend(me, route, limits)
-        if me.v >= held and fastest >= held:
-            return me.v
-        self._held = held
-        slowest = me.v - COMFORT * limits.deceleration * inputs.dt
-        rising = me.v + COMFORT * limits.acceleration * inputs.dt
-        return max(min(held, fastest, rising), slowest, 0.0)
 
 
 @dataclass
@@ -132,7 +98,6 @@ class MovingBody:
     _course: Course | None = None
     _way: Way | None = None
     _speed: Longitudinal | None = None
-    _open: OpenSpeed = field(default_factory=OpenSpeed)  # without a command
     _side: Lateral = field(default_factory=HoldOffset)
     _turning: Turning | None = None
     _unphysical: set[str] = field(default_factory=set)  # slots in which physics need not hold

@@ -42,7 +42,7 @@ class Move(ModifiableAction):
 class Drive(ModifiableAction):
     """Drive as the modifiers state.
 
-    Without modifiers along the lane at the present speed, slower in bends.
+    Without modifiers along the lane at the present speed.
     """
 
     accepts: ClassVar[tuple[type, ...]] = Move.accepts
