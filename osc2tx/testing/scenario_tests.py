@@ -100,13 +100,13 @@ def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Col
 def pytest_sessionfinish(session: pytest.Session) -> None:
     """Make the pages of all traces, and of the project; called by pytest."""
     config = session.config
-    if is_worker(config):
-        return
+    traces = config.getoption("osc_traces")
+    if is_worker(config) or not (traces or _PAGE in config.stash):
+        return  # without the imports below, which load numpy
     from osc2tx.campaigns import CampaignError
     from osc2tx_runtime.errors import InputError as TraceError
     from osc2tx_runtime.errors import ScenarioError
 
-    traces = config.getoption("osc_traces")
     try:
         if traces and Path(traces).is_dir():
             from osc2tx_runtime.running.trace_reports import folder_report

@@ -160,6 +160,11 @@ def _open_speed(action: FirstAction) -> list[ir.ModifierCall]:
             return _mean_speed(action.positions, time)
         case [("speed", "end")] if _begins_as_it_ends(action):
             return [_at_start(paces[0])]
+        case [("speed", "end")] if time is not None:
+            reference = _kept_reference(action.positions, has_end=True)
+            if reference is not None:
+                return [_speed("same_as", reference.value, reference.span)]
+            return _steadily(action.positions, time, paces[0])
         case [("distance", "all")] if time is not None and not later:
             distance = _value(paces[0], "distance")
             if distance is not None:
@@ -192,6 +197,19 @@ def _mean_speed(
         return []
     way = _of("-", last, first, "length")
     return [_speed("speed", _of("/", way, time, "speed"), positions[-1].span)]
+
+
+def _steadily(
+    positions: Sequence[ir.ModifierCall], time: ir.Expression, end: ir.ModifierCall
+) -> list[ir.ModifierCall]:
+    """Return the speed from which one acceleration leads to a place and to a speed there."""
+    mean, last = _mean_speed(positions, time), _value(end, "speed")
+    if not mean or last is None:
+        return []
+    twice = _of("+", mean[0].arguments[0].value, mean[0].arguments[0].value, "speed")
+    first = _of("-", twice, last, "speed")
+    is_backwards = (ir.constant(first) or 0.0) < 0.0
+    return [] if is_backwards else [_speed("speed", first, end.span)]
 
 
 def _kept_reference(positions: Sequence[ir.ModifierCall], *, has_end: bool) -> ir.Argument | None:

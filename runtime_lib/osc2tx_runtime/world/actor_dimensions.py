@@ -87,6 +87,12 @@ class Limits:
     road: str = ""
     overturn: float = math.inf
 
+    @property
+    def text(self) -> str:
+        """The longitudinal limits, for messages."""
+        own = f"{self.acceleration:.4g} and -{self.deceleration:.4g} m/s^2"
+        return f"its limits are {own}{self.road}"
+
 
 TYRES = Limits(RATE_CAP, RATE_CAP)
 """Limits of actors whose vehicle limits are switched off."""

@@ -230,8 +230,7 @@ class ArrivalRun:
         return rate_to_place(n, dt, missing)
 
     def _judge(self, missed: float, speed: float, end: float | None) -> None:
-        limits = self._limits
-        can = f"its limits are {limits.acceleration:g} and -{limits.deceleration:g} m/s^2"
+        can = self._limits.text
         if abs(missed) > self._near:
             side = "short of" if missed > 0.0 else "beyond"
             reason = (

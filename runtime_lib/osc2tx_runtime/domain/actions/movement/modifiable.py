@@ -291,7 +291,7 @@ class ModifiableAction(ModifiedMotion):
         ends = [m.name for m in self.modifiers if getattr(m, "at", "all") == "end"]
         what = " and ".join(dict.fromkeys(f"`{name}(at: end)`" for name in ends)) or "its goal"
         if earlier:
-            return f"before {what} is reached"
+            return f"before {what} is reached; {self.limits.text}"
         return f"its duration ends before {what} is reached; state a longer one, or none"
 
     # --- goals --------------------------------------------------------------------------------
