@@ -77,7 +77,7 @@ NOT_BUILT = (
         + "speed(p.lead.speed)\n",
     ),
     NotBuilt(
-        "`distance`, `change_lane`, `change_speed` or a position at the end as a member of a"
+        "`distance`, `change_lane` or `change_speed` as a member of a"
         " scenario, or of a composition, in which the actor carries out several actions",
         "OSC508",
         "it is about the whole: each of the actions would cover the distance or change the lane."

@@ -40,6 +40,7 @@ def lower_body(
     attached.extend(standing.attached)
     if body is None:
         return None
+    body = standing.with_edges_of_members(body)
     body = lasting(ctx, body, duration)
     body = _framed(scenario, tuple(attached.before), body, tuple(attached.after))
     on = [s for s in statements if isinstance(s, ast.OnDirective)]

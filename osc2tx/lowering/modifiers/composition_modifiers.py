@@ -1,7 +1,7 @@
-"""Modifiers of compositions that hold at the start or the end alone (§7.3.12.1.2).
+"""Modifiers of compositions and scenarios that hold at the start or the end alone (§7.3.12.1.2).
 
-The composition is treated like a scenario that consists of it: what holds at its start holds when
-its first action of the actor starts, what holds at its end when the last one ends.
+A composition is treated like a scenario that consists of it: what holds at its start holds when its
+first action of the actor starts, what holds at its end when the last one ends.
 """
 
 from __future__ import annotations
@@ -10,6 +10,9 @@ from typing import TypeVar
 
 from osc2tx import ir
 from osc2tx_shared.classes import replace
+
+_KEPT = {"speed": {"speed"}, "lane": {"lane"}}
+"""Modifiers, with the parameters that relate to nothing else."""
 
 CompositionT = TypeVar("CompositionT", ir.Serial, ir.Parallel, ir.OneOf)
 
@@ -30,6 +33,8 @@ def with_edge(node: ir.Behavior, call: ir.ModifierCall, actor: str) -> ir.Behavi
             return replace(node, modifiers=(*node.modifiers, replace(call, comments=())))
         case ir.Serial(members=members):
             lasting = [i for i, each in enumerate(members) if not ir.is_instant(each)]
+            if call.at == "end" and _is_kept(call):
+                lasting = [i for i in lasting if _acts(members[i], actor)]
             return _changed(node, lasting[:1] if call.at == "start" else lasting[-1:], call, actor)
         case ir.Parallel(members=members) if ir.starts_together(node):
             acting = [i for i, each in enumerate(members) if with_edge(each, call, actor)]
@@ -37,6 +42,20 @@ def with_edge(node: ir.Behavior, call: ir.ModifierCall, actor: str) -> ir.Behavi
         case ir.OneOf(members=members):
             return _changed(node, list(range(len(members))), call, actor)
     return None
+
+
+def _is_kept(call: ir.ModifierCall) -> bool:
+    """Whether an actor keeps what a modifier states while no action controls it."""
+    given = {argument.parameter for argument in call.arguments}
+    return call.name in _KEPT and given <= _KEPT[call.name]
+
+
+def _acts(node: ir.Behavior, actor: str) -> bool:
+    """Whether a member may move an actor."""
+    parts = tuple(ir.walk_behaviors(node))
+    return any(isinstance(each, ir.InvokeScenario) for each in parts) or any(
+        isinstance(each, ir.Invoke) and each.actor_name == actor for each in parts
+    )
 
 
 def _changed(

@@ -77,27 +77,48 @@ class StandingModifiers:
         for standing in self._of_composition(node):
             for applied in self._lower(standing):
                 if applied.call.at == "all" and standing.node not in self._used:
-                    self._refuse(standing.node, applied.call)
+                    self._refuse(standing, applied.call)
                     break
 
     def with_edges(self, node: ast.Composition, made: ir.Composition) -> ir.Composition:
         """Return a composition with its modifiers that hold at its start or its end alone."""
         for standing in self._of_composition(node):
-            for applied in self._lower(standing):
-                if applied.call.at == "all":
-                    continue
-                acting = [n for n in ir.invocations(made) if n.actor_name == _name_of(applied)]
-                if applied.call.name in _COMPARING and len(acting) > 1:
-                    self._refuse_whole(standing.node, applied.call)
-                    break
-                target = applied.target
-                is_known = target is None or target.origin != "user"
-                changed = with_edge(made, applied.call, _name_of(applied)) if is_known else None
-                if not isinstance(changed, ir.Serial | ir.Parallel | ir.OneOf):
-                    self._refuse(standing.node, applied.call)
-                    break
-                made = changed
+            changed = self._with_edge(standing, made)
+            assert isinstance(changed, ir.Serial | ir.Parallel | ir.OneOf)
+            made = changed
         return made
+
+    def with_edges_of_members(self, made: ir.Behavior) -> ir.Behavior:
+        """Return the `do` of the scenario with its members that hold at the start or end alone."""
+        for standing in self._of_scenario():
+            made = self._with_edge(standing, made)
+        return made
+
+    def _with_edge(self, standing: Standing, made: ir.Behavior) -> ir.Behavior:
+        for applied in self._lower(standing):
+            if applied.call.at == "all" or not self._is_edge(standing, applied.call):
+                continue
+            acting = [n for n in ir.invocations(made) if n.actor_name == _name_of(applied)]
+            if applied.call.name in _COMPARING and len(acting) > 1:
+                self._refuse_whole(standing.node, applied.call)
+                break
+            target = applied.target
+            is_known = target is None or target.origin != "user"
+            changed = with_edge(made, applied.call, _name_of(applied)) if is_known else None
+            if changed is None:
+                self._refuse(standing, applied.call)
+                break
+            made = changed
+        return made
+
+    def _is_edge(self, standing: Standing, call: ir.ModifierCall) -> bool:
+        """Whether a modifier `at: start` or `at: end` is that of the first or the last action.
+
+        Starts of scenarios are placements; members of actors hold for each of their actions.
+        """
+        if standing.composition is not None:
+            return True
+        return standing.receiver is None and not self._is_start(standing.node) and stands(call)
 
     def attached_to(self, node: ast.Composition) -> Attached:
         """Return the reactions that the modifiers of a composition attach to it."""
@@ -143,7 +164,7 @@ class StandingModifiers:
             if self._is_start(standing.node):
                 continue
             for applied in self._lower(standing):
-                if standing.composition is not None and applied.call.at != "all":
+                if applied.call.at != "all" and self._is_edge(standing, applied.call):
                     continue
                 is_meant = _name_of(applied) == actor.name and _fits(applied, action)
                 if is_meant and stands(applied.call):
@@ -166,13 +187,16 @@ class StandingModifiers:
 
     def _standing(self, actor: ir.FieldRef) -> Iterator[Standing]:
         yield from self._of_type(actor)
+        yield from self._of_scenario()
+        for node in self._around:
+            yield from self._of_composition(node)
+
+    def _of_scenario(self) -> Iterator[Standing]:
         owner = self._constraints.found.owner
         for ancestor in () if owner is None else reversed(list(supertypes(owner))):
             for statement in ancestor.statements:
                 if isinstance(statement, ast.ModifierApplication):
                     yield _member(statement)
-        for node in self._around:
-            yield from self._of_composition(node)
 
     def _of_composition(self, node: ast.Composition) -> Iterator[Standing]:
         what = node.label.text if node.label is not None else node.operator.value
@@ -239,14 +263,15 @@ class StandingModifiers:
         )
         return callee.origin != "user" and states_start
 
-    def _refuse(self, node: ast.ModifierApplication, call: ir.ModifierCall) -> None:
+    def _refuse(self, standing: Standing, call: ir.ModifierCall) -> None:
+        whole = "scenario" if standing.composition is None else "composition"
         self._ctx.unsupported(
             "OSC508",
-            node.span,
+            standing.node.span,
             (
-                f"no action in this composition is modified by `{call.name}`"
+                f"no action in this {whole} is modified by `{call.name}`"
                 if call.at == "all"
-                else f"no action surely {call.at}s with this composition, to meet `{call.name}`"
+                else f"no action surely {call.at}s with this {whole}, to meet `{call.name}`"
             ),
             help="apply it in the `with` of the actions in it",
         )
