@@ -68,7 +68,7 @@ class CutIn(Scenario):
                 ),
             ),
             self.other.change_lane(num_of_lanes=1, side="right"),
-            self.other.drive("settle", speed(self.v_ego), duration=5 * s),
+            self.other.drive("settle", speed(self.v_ego, at="end"), duration=5 * s),
         )
 
 

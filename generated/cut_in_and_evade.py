@@ -135,10 +135,12 @@ class CutInAndEvade(Scenario):
             ),
             self.npc.change_lane("cut_in", num_of_lanes=1, side="left"),
             # Brake check, until the hero has evaded
+            self.npc.change_speed(target=self.v_npc_slow),
             Until(
                 self.npc.drive("brake_check", speed(self.v_npc_slow)),
                 self.crash_avoided,
             ),
+            self.npc.change_speed(target=self.v_npc_catchup),
             Until(
                 self.npc.drive("recover", speed(self.v_npc_catchup)),
                 rise(
