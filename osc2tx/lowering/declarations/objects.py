@@ -136,10 +136,11 @@ class ObjectLowering:
         """Return the facts about an object; values that constraints leave open can be set."""
         found = self._said((field,))
         object_ = self._reference(field)
-        if isinstance(field.type, types.ActorType | types.StructType):
-            self._complete((field,), self.types_of(field), object_, found)
+        is_object = isinstance(field.type, types.ActorType | types.StructType)
+        types_ = self.types_of(field) if is_object else ()
+        self._complete((field,), types_, object_, found)
         elements = fixed_elements(self._ctx, self._constraints, field)
-        return (*_without_object(self._ctx, object_.name, field.type, found), *elements)
+        return (*_without_object(self._ctx, object_.name, types_, found), *elements)
 
     def of_parameter(self, key: Key, type_: types.StructType, object_: ir.FieldRef) -> ir.Struct:
         """Lower a struct that constraints of an invocation describe by its fields.
@@ -158,7 +159,7 @@ class ObjectLowering:
             name=object_.name,
             span=object_.span,
             type=names[0],
-            values=_without_object(self._ctx, object_.name, type_, found),
+            values=_without_object(self._ctx, object_.name, types_, found),
             lineage=names,
         )
 
@@ -282,14 +283,14 @@ def _condition_of(special: TypeSymbol) -> str:
 
 
 def _without_object(
-    ctx: LoweringContext, name: str, type_: types.Type, found: dict[Key, ir.FieldValue]
+    ctx: LoweringContext, name: str, types_: tuple[TypeSymbol, ...], found: dict[Key, ir.FieldValue]
 ) -> tuple[ir.FieldValue, ...]:
     """Return the values; a reference to a field of the same object is replaced by its value."""
     by_path = {value.path: value.value for value in found.values()}
 
     def replacement(part: ir.Expression) -> ir.Expression | None:
         path = _path_below(name, part)
-        value = by_path.get(path) or _default_at(ctx, type_, path)
+        value = by_path.get(path) or _default_at(ctx, types_, path)
         if value is None or path in pending:
             return None  # of the library, or defined by itself: `in_order_of_use` reports that
         pending.append(path)
@@ -331,16 +332,19 @@ def _constant(value: ir.Expression) -> bool | int | float | str | None:
 
 
 def _default_at(
-    ctx: LoweringContext, type_: types.Type, path: tuple[str, ...]
+    ctx: LoweringContext, types_: tuple[TypeSymbol, ...], path: tuple[str, ...]
 ) -> ir.Expression | None:
-    """Return the default that the class of an own type has for a member, or one below it."""
-    if not path or not isinstance(type_, types.ActorType | types.StructType):
+    """Return the default that the classes of an object have for a member, or one below it."""
+    if not path:
         return None
-    fields = (member for each in user_lineage(type_.symbol) for member in user_fields(ctx, each))
+    lineages = chain.from_iterable(map(user_lineage, types_))
+    fields = (member for each in lineages for member in user_fields(ctx, each))
     member = next((member for member in fields if member.name == path[0]), None)
-    if member is None or path[1:]:
-        return None if member is None else _default_at(ctx, member.type, path[1:])
-    return class_default(ctx, member)
+    if member is None or not path[1:]:
+        return None if member is None else class_default(ctx, member)
+    type_ = member.type
+    below = (type_.symbol,) if isinstance(type_, types.ActorType | types.StructType) else ()
+    return _default_at(ctx, below, path[1:])
 
 
 def _path_below(object_: str, part: ir.Expression) -> tuple[str, ...]:

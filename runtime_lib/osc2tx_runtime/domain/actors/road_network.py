@@ -241,8 +241,9 @@ class RoadNetwork:
         self, relative_path: RelativePath, reference: Measures, transform: RelativeTransform
     ) -> Path:
         """The absolute path, at the present pose of the reference."""
-        poses = absolute(self._map, relative_path.points, reference.state, transform)
-        return Path(poses, relative_path.interpolation)
+        points, interpolation = relative_path.points, relative_path.interpolation
+        poses = absolute(self._map, points, reference.state, transform, interpolation)
+        return Path(poses, interpolation)
 
     def resolve_relative_trajectory(
         self,

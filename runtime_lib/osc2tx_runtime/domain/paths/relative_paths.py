@@ -7,20 +7,25 @@
 - `road_relative`: along the reference line of its road, and to the left of that line.
 
 Points in road coordinates (`odr`) count from the `s` of the reference on its road.
+
+A smooth path in coordinates of a lane or a road is smooth in these coordinates: along a lane at a
+constant distance it lies on an arc where the lane does. Straight lines are chords.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
-from osc2tx_runtime.domain.paths.path_curves import PathError
+from osc2tx_runtime.domain.paths.path_curves import PathError, path_curve
 from osc2tx_runtime.domain.paths.path_values import PathPoint
 from osc2tx_runtime.domain.points_and_poses import OdrPoint, Pose, RoutePoint
-from osc2tx_runtime.enums import RelativeTransform
+from osc2tx_runtime.enums import PathInterpolation, RelativeTransform
 from osc2tx_runtime.opendrive import LanePosition, MapError, RoadMap
 from osc2tx_runtime.opendrive import Pose as MapPose
 from osc2tx_runtime.world.state import ActorState
+
+_STRETCH = 2.0  # m between points of a smooth path along a lane
 
 
 def absolute(
@@ -28,16 +33,48 @@ def absolute(
     points: Sequence[PathPoint],
     reference: ActorState,
     transform: RelativeTransform,
+    interpolation: PathInterpolation = "straight_line",
 ) -> tuple[Pose, ...]:
     """Poses in the world of points relative to an object.
+
+    Args:
+        road_map: The map.
+        points: The points.
+        reference: The object.
+        transform: The frame of the points.
+        interpolation: Of a path; a smooth one along a lane or a road has further points.
 
     Raises:
         PathError: The reference has no such frame, or a point is beyond its lane.
     """
     try:
+        if interpolation == "smooth" and len(points) > 1:
+            points = tuple(_smooth(points, transform))
         return tuple(_absolute(road_map, point, reference, transform) for point in points)
     except MapError as error:
         raise PathError(error.message) from error
+
+
+def _smooth(points: Sequence[PathPoint], transform: RelativeTransform) -> Iterator[PathPoint]:
+    """Yield the points of a smooth path, with those between them along a lane or a road."""
+    on_route = all(isinstance(each, RoutePoint) for each in points)
+    in_frame = [
+        Pose(each.s, each.t, 0.0) if isinstance(each, RoutePoint) else each
+        for each in points
+        if isinstance(each, RoutePoint | Pose)
+    ]
+    along = on_route or transform in ("lane_relative", "road_relative")
+    if not along or len(in_frame) < len(points):
+        yield from points
+        return
+    curve = path_curve(in_frame, "smooth")
+    for i, begin in enumerate(curve.knots):
+        end = curve.knots[i + 1] if i + 1 < len(curve.knots) else begin
+        count = max(math.ceil((end - begin) / _STRETCH), 1)
+        for k in range(count):
+            at = begin + (end - begin) * k / count
+            x, y, z = curve.point(at)
+            yield RoutePoint(None, x, y) if on_route else Pose(x, y, z, yaw=curve.yaw(at))
 
 
 def _absolute(

@@ -46,20 +46,22 @@ class Schedule:
         reach = max(2.0 * abs(me.v) * inputs.dt, 1.0)
         self._along = curve.nearest(me.x, me.y, self._along, reach)
         behind = curve.length_at(min(now, self._end)) - self._along
-        self._late = self._goal - self._along
-        if now > self._end + PATIENCE and self._late > _ARRIVED:
+        missing = self._goal - self._along
+        if now > self._end + PATIENCE and missing > _ARRIVED:
             self._failed = (
-                f"it is still {self._late:.1f} m from the end, {PATIENCE:g} s after its time"
+                f"it is still {missing:.1f} m from the end, {PATIENCE:g} s after its time"
             )
         dx, dy, _ = curve.rate(after)
         feed = math.hypot(dx, dy) if now < self._end else 0.0
         brake = 0.5 * self._limits.deceleration
         catch_up = min(_CATCH_UP * abs(behind), math.sqrt(2.0 * brake * abs(behind)))
         wanted = max(feed + math.copysign(catch_up, behind), 0.0)
-        return towards(me.v, wanted, self._limits, 1.0, inputs.dt)
+        speed = towards(me.v, wanted, self._limits, 1.0, inputs.dt)
+        self._late = missing - 0.5 * (me.v + speed) * inputs.dt
+        return speed
 
     def progress(self) -> Progress:
-        """Done at the end of the curve."""
+        """Done at the end of the curve, at the step that gets there."""
         if self._failed is not None:
             return Progress(False, self._failed)
         return REACHED if self._late <= _ARRIVED else PENDING

@@ -143,7 +143,9 @@ class _OnCourse(CourseAction, Generic[CourseT, RelativeT]):
             return now(self.absolute)
         assert self.relative is not None
         relative, reference = now(self.relative), self.world.state(self.reference.id)
-        points = absolute(self.world.map, relative.points, reference, self.transform)
+        # The points of a trajectory have times of their own: there are none between them.
+        way = relative.interpolation if isinstance(relative, RelativePath) else "straight_line"
+        points = absolute(self.world.map, relative.points, reference, self.transform, way)
         return self.resolved(relative, points)
 
     def resolved(self, relative: RelativeT, points: tuple[Pose, ...]) -> CourseT:
