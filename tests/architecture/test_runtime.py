@@ -75,7 +75,7 @@ domain.capabilities: domain.actions domain.actors domain.capability_tables domai
     language units
 worlds: errors opendrive world
 simulators: enums errors opendrive plain_numbers world worlds
-report: language
+report: language opendrive
 running: domain.map domain.monitoring domain.objects domain.placing domain.scenario errors
     interrupts language opendrive plain_numbers report world worlds
 kpis: errors language opendrive running world

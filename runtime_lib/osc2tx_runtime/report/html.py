@@ -16,13 +16,30 @@ def resource(name: str) -> str:
     return files(__package__).joinpath(name).read_text(encoding="utf-8")
 
 
-def fill(template: str, style: str, script: str, data: Json) -> str:
-    """Return the page of a template with `$style`, `$script`, `$data` and the hashes."""
-    return Template(template).substitute(
+def resources(*names: str) -> str:
+    """Return the texts of files of this package, one below the other."""
+    return "\n".join(map(resource, names))
+
+
+def page(body: str, title: str, purpose: str, style: str, script: str, data: Json) -> str:
+    """Return a page.
+
+    Args:
+        body: The file with its elements.
+        title: Its title.
+        purpose: What it does with its data, for browsers that run no scripts.
+        style: Its style sheet.
+        script: The only script that the browser runs.
+        data: The data that the script draws.
+    """
+    return Template(resource("page.html")).substitute(
+        title=title,
+        purpose=purpose,
         style=style,
         script=script,
         style_hash=_csp_hash(style),
         script_hash=_csp_hash(script),
+        body=resource(body),
         data=_embed(data),
     )
 

@@ -4,23 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from .html import fill, resource
+from .html import page, resource, resources
 from .json_values import Json, number, plain, text
 from .page import Trace
 
 
 def render_index(rows: Sequence[Json]) -> str:
     """The index of rows (`index_row`) as text; equal arguments give equal text."""
-    data: Json = {"runs": list(rows)}
-    script = resource("base.js") + "\n" + resource("index.js")
-    return fill(resource("index.html"), resource("report.css"), script, data)
+    style, script = resource("report.css"), resources("base.js", "index.js")
+    purpose = "This page lists its runs"
+    return page("index.html", "Runs", purpose, style, script, {"runs": list(rows)})
 
 
-def index_row(page: str, trace: Trace) -> Json:
+def index_row(place: str, trace: Trace) -> Json:
     """A run in the index.
 
     Args:
-        page: Its page, relative to the index, with `/`.
+        place: Its page, relative to the index, with `/`.
         trace: Its trace.
     """
     run = trace.run
@@ -28,7 +28,7 @@ def index_row(page: str, trace: Trace) -> Json:
     warnings = result.get("warnings")
     parameters, units = run.header.get("parameters"), run.header.get("units")
     return {
-        "page": page,
+        "page": place,
         "name": trace.name,
         "scenario": text(run.header.get("scenario")),
         "world": text(run.header.get("world")) or "embedded",

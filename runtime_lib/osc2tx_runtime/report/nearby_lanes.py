@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Sequence
-from typing import Protocol
+from typing import TYPE_CHECKING
 
 from .json_values import Json, short
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.opendrive import LaneOutline, RoadMap
 
 MARGIN = 100.0
 """Distance (m) from a path within which lanes are drawn."""
@@ -21,72 +24,7 @@ Bounds = tuple[float, float, float, float]
 """Smallest x, smallest y, largest x, largest y (m)."""
 
 
-class LaneShape(Protocol):
-    """The used part of a lane outline (`osc2tx_runtime.opendrive.LaneOutline`)."""
-
-    @property
-    def road(self) -> str:
-        """Road id."""
-
-    @property
-    def lane(self) -> int:
-        """Lane id."""
-
-    @property
-    def type(self) -> str:
-        """Lane type of OpenDRIVE."""
-
-    @property
-    def left(self) -> Sequence[Point]:
-        """Edge on the left of the reference line's direction (m)."""
-
-    @property
-    def right(self) -> Sequence[Point]:
-        """Edge on the right of the reference line's direction (m)."""
-
-    @property
-    def junction(self) -> str | None:
-        """Junction id, None on ordinary roads."""
-
-
-class CrosswalkShape(Protocol):
-    """The used part of a crosswalk (`osc2tx_runtime.opendrive.Crosswalk`)."""
-
-    @property
-    def x(self) -> float:
-        """Middle of the path over the road (m)."""
-
-    @property
-    def y(self) -> float:
-        """Likewise."""
-
-    @property
-    def heading(self) -> float:
-        """Direction of the path (rad)."""
-
-    @property
-    def length(self) -> float:
-        """Length of the path (m)."""
-
-    @property
-    def width(self) -> float:
-        """Extent across it (m)."""
-
-
-class OutlineSource(Protocol):
-    """The part of `osc2tx_runtime.opendrive.RoadMap` that the report needs."""
-
-    def crosswalks(self) -> Sequence[CrosswalkShape]:
-        """All crosswalks of the map."""
-
-    def lane_outlines(self, bounds: Bounds | None = None, step: float = 4.0) -> Iterable[LaneShape]:
-        """Outlines of the lanes that touch the bounds."""
-
-    def travel_direction(self, road: str, lane: int) -> int:
-        """+1 along the reference line, -1 against it."""
-
-
-def nearby_lanes(road_map: OutlineSource, paths: Sequence[Sequence[Point]]) -> list[Json]:
+def nearby_lanes(road_map: RoadMap, paths: Sequence[Sequence[Point]]) -> list[Json]:
     """Lanes within about `MARGIN` of the paths; an empty list without paths."""
     points = [point for path in paths for point in path]
     if not points:
@@ -113,7 +51,7 @@ def nearby_lanes(road_map: OutlineSource, paths: Sequence[Sequence[Point]]) -> l
 
 
 def nearby_crosswalks(
-    road_map: OutlineSource, paths: Sequence[Sequence[Point]]
+    road_map: RoadMap, paths: Sequence[Sequence[Point]]
 ) -> list[list[float | int]]:
     """Crosswalks within about `MARGIN` of the paths: x, y, heading, length and width of each."""
     near = _near_test([point for path in paths for point in path])
@@ -151,13 +89,13 @@ def cell(point: Point) -> tuple[int, int]:
 _EdgeKey = tuple[str, int, float, float]
 
 
-def _edge_key(shape: LaneShape, *, outer: bool) -> _EdgeKey:
+def _edge_key(shape: LaneOutline, *, outer: bool) -> _EdgeKey:
     """Key of one edge of a lane: road, lane and its first point (to a decimetre)."""
     edge = shape.left if (shape.lane > 0) == outer else shape.right
     return shape.road, shape.lane, round(edge[0][0], 1), round(edge[0][1], 1)
 
 
-def _neighbour_key(shape: LaneShape, *, outer: bool) -> _EdgeKey:
+def _neighbour_key(shape: LaneOutline, *, outer: bool) -> _EdgeKey:
     """The key of the neighbour on that side for the shared edge."""
     road, lane, x, y = _edge_key(shape, outer=outer)
     away = 1 if lane > 0 else -1
@@ -165,7 +103,7 @@ def _neighbour_key(shape: LaneShape, *, outer: bool) -> _EdgeKey:
 
 
 def _clip(
-    shape: LaneShape, near: Callable[[Point], bool]
+    shape: LaneOutline, near: Callable[[Point], bool]
 ) -> Iterable[tuple[list[Point], list[Point]]]:
     """The runs of a lane's stations that are near, thinned."""
     if len(shape.left) != len(shape.right):

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from pathlib import Path
-from typing import Protocol
+from typing import TYPE_CHECKING
 
-from .html import fill, resource
+from .html import page, resource, resources
 from .json_values import Json
-from .nearby_lanes import OutlineSource, nearby_crosswalks, nearby_lanes
-from .surroundings import SignalSource
+from .nearby_lanes import nearby_crosswalks, nearby_lanes
 from .trace_reader import read_run
 from .tracks import DIGITS
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.opendrive import RoadMap
 
 
 def render_campaign(data: Json) -> str:
@@ -20,9 +21,10 @@ def render_campaign(data: Json) -> str:
     Args:
         data: A summary, coverage, and columns of rows, as `osc2tx campaign report` collects them.
     """
-    script = "\n".join(resource(name) for name in ("base.js", "campaign.js", "parallel.js"))
-    style = "\n".join(resource(name) for name in ("report.css", "campaign.css"))
-    return fill(resource("campaign.html"), style, script, data)
+    style = resources("report.css", "campaign.css")
+    script = resources("base.js", "campaign.js", "parallel.js")
+    purpose = "This page shows its campaign"
+    return page("campaign.html", "Campaign", purpose, style, script, data)
 
 
 def render_project(data: Json) -> str:
@@ -32,13 +34,10 @@ def render_project(data: Json) -> str:
         data: Verdicts of scenarios, XML by reason, and campaigns, as `osc2tx test --page` and
             `osc2tx campaign report` of several stores collect them.
     """
-    script = "\n".join(resource(name) for name in ("base.js", "project.js"))
-    return fill(resource("project.html"), resource("report.css"), script, data)
+    style, script = resource("report.css"), resources("base.js", "project.js")
+    return page("project.html", "Project", "This page shows its project", style, script, data)
 
 
-_VENDOR_SCRIPT, _VENDOR_STYLE, _VENDOR_LICENCE = (
-    f"vendor/{name}" for name in ("uplot.js", "uplot.css", "LICENSE")
-)
 _SCRIPTS = (
     "base.js",
     "core.js",
@@ -62,10 +61,6 @@ _SCRIPTS = (
 _LETTERS = "AB"
 
 
-class MapSource(OutlineSource, SignalSource, Protocol):
-    """The part of `osc2tx_runtime.opendrive.RoadMap` that is drawn."""
-
-
 class Trace:
     """The content of a trace for a page.
 
@@ -83,24 +78,17 @@ class Trace:
         self.name = name
 
 
-def write_report(path: Path, trace_lines: Iterable[str], road_map: MapSource | None = None) -> None:
-    """Write the report of one run.
+def render_report(trace_lines: Iterable[str], road_map: RoadMap | None = None) -> str:
+    """The page of one run as text; equal arguments give equal text.
 
     Args:
-        path: The HTML file to write; its folder must exist.
         trace_lines: The lines of the trace. Broken and unknown lines are counted on the page.
-        road_map: The map to draw under the paths (a `RoadMap`), None: no map.
+        road_map: The map to draw under the paths; None: no map.
     """
-    page = render_report(trace_lines, road_map)
-    path.write_text(page, encoding="utf-8", newline="\n")
-
-
-def render_report(trace_lines: Iterable[str], road_map: MapSource | None = None) -> str:
-    """The page of one run as text; equal arguments give equal text."""
     return render_runs([Trace(trace_lines)], road_map)
 
 
-def render_runs(traces: Sequence[Trace], road_map: MapSource | None = None) -> str:
+def render_runs(traces: Sequence[Trace], road_map: RoadMap | None = None) -> str:
     """The page of one run, or of two overlaid runs, as text.
 
     Args:
@@ -124,12 +112,13 @@ def render_runs(traces: Sequence[Trace], road_map: MapSource | None = None) -> s
         "lanes": [] if road_map is None else nearby_lanes(road_map, paths),
         "crosswalks": [] if road_map is None else nearby_crosswalks(road_map, paths),
     }
-    script = "\n".join((_vendored(), *(resource(name) for name in _SCRIPTS)))
-    style = resource(_VENDOR_STYLE) + "\n" + resource("report.css")
-    return fill(resource("report.html"), style, script, data)
+    style = resources("vendor/uplot.css", "report.css")
+    script = f"{_vendored()}\n{resources(*_SCRIPTS)}"
+    purpose = "This report draws its views"
+    return page("report.html", "Run report", purpose, style, script, data)
 
 
 def _vendored() -> str:
     """The code of uPlot under its licence; its own first line is only an address."""
-    code = resource(_VENDOR_SCRIPT).partition("\n")[2]
-    return f"/* uPlot\n\n{resource(_VENDOR_LICENCE)}*/\n{code}"
+    code = resource("vendor/uplot.js").partition("\n")[2]
+    return f"/* uPlot\n\n{resource('vendor/LICENSE')}*/\n{code}"

@@ -2,55 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import field
-from typing import Protocol
+from typing import TYPE_CHECKING
 
 from osc2tx_shared.classes import dataclass
 
 from .json_values import Json, number, short, text
 
-
-class SignalShape(Protocol):
-    """The used part of a signal (`osc2tx_runtime.opendrive.Signal`)."""
-
-    @property
-    def id(self) -> str:
-        """Id, unique in the map."""
-
-    @property
-    def road(self) -> str:
-        """Road id."""
-
-    @property
-    def s(self) -> float:
-        """Road coordinate (m)."""
-
-    @property
-    def t(self) -> float:
-        """Lateral coordinate (m, left positive)."""
-
-
-class PoseShape(Protocol):
-    """The used part of a pose."""
-
-    @property
-    def x(self) -> float:
-        """World x (m)."""
-
-    @property
-    def y(self) -> float:
-        """World y (m)."""
-
-
-class SignalSource(Protocol):
-    """The part of `osc2tx_runtime.opendrive.RoadMap` with the positions of lights."""
-
-    def signals(self) -> Sequence[SignalShape]:
-        """All signals."""
-
-    def road_pose(self, road: str, s: float, t: float) -> PoseShape:
-        """Pose of a position beside a road."""
+if TYPE_CHECKING:
+    from osc2tx_runtime.opendrive import RoadMap
 
 
 @dataclass
@@ -83,7 +43,7 @@ class Surroundings:
             values = {key: number(value) for key, value in line.items() if key not in ("t", "kind")}
             self.weather.append({"t": t, "values": values})
 
-    def as_json(self, road_map: SignalSource | None) -> Json:
+    def as_json(self, road_map: RoadMap | None) -> Json:
         """The data for the page; without a map, traffic lights have no positions."""
         return {
             "signals": [] if road_map is None else self._placed(road_map),
@@ -91,7 +51,7 @@ class Surroundings:
             "weather": self.weather,
         }
 
-    def _placed(self, road_map: SignalSource) -> list[Json]:
+    def _placed(self, road_map: RoadMap) -> list[Json]:
         placed: list[Json] = []
         for signal in road_map.signals():
             changes = self.signals.get(signal.id)
