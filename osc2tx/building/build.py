@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from itertools import count
 from pathlib import Path
 
 from osc2tx.building.jobs import Job, find_jobs
@@ -20,14 +19,12 @@ from osc2tx.building.plan import (
 )
 from osc2tx.building.result_cache import ResultCache
 from osc2tx.building.results import FileResult, with_severities
-from osc2tx.building.workers import compile_jobs, with_siblings
+from osc2tx.building.workers import Progress, compile_jobs, no_progress, with_siblings
 from osc2tx.building.write import Update, update_folder
 from osc2tx.building.written_digests import read_digests
 from osc2tx.config import ConfigFiles, GivenOptions
 from osc2tx.support.paths import is_committed, real_path
 from osc2tx_shared.classes import dataclass
-
-Progress = Callable[[int, int], None]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -108,7 +105,7 @@ def build(
     options: BuildOptions | None = None,
     *,
     configs: ConfigFiles | None = None,
-    progress: Progress = lambda done, total: None,
+    progress: Progress = no_progress,
     waiting: Callable[[str], None] = lambda process: None,
 ) -> BuildResult:
     """Compile sources and write their outputs.
@@ -181,25 +178,16 @@ class _Build:
 
     def _compile(self, jobs: Sequence[Job]) -> list[FileResult]:
         """Return the results of all jobs, with texts of all outputs that may be written."""
-        recalled = {job: self.memory.load(job) for job in jobs}
-        known = {job: result for job, result in recalled.items() if result is not None}
+        known = self.memory.load_all(jobs)
         placed, _ = place_outputs(list(known.values()))
         for planned in placed:
             if self._needs_text(planned) and (job := planned.result.job) in known:
                 whole = self.memory.with_texts(known.pop(job))
                 known |= {job: whole} if whole is not None else {}
-        missing = [job for job in jobs if job not in known]
-        numbers = count(1)
-
-        def finished(result: FileResult) -> None:
-            self.memory.keep(result)
-            self.progress(next(numbers), len(missing))
-
-        made = compile_jobs(missing, self.options.workers, finished, self.memory.findings)
-        if made:
+        results = compile_jobs(jobs, self.options.workers, self.memory, known, self.progress)
+        if len(known) < len(jobs):
             self.folder.look_again()
-        known |= dict(zip(missing, made, strict=True))
-        return [known[job] for job in jobs]
+        return results
 
     def _needs_text(self, planned: Planned) -> bool:
         try:

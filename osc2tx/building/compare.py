@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from difflib import unified_diff
-from itertools import count
 from pathlib import Path
 
 from osc2tx.building.jobs import Job, find_jobs
@@ -13,7 +12,7 @@ from osc2tx.building.plan import place_outputs
 from osc2tx.building.result_cache import ResultCache
 from osc2tx.building.results import FileResult, with_severities
 from osc2tx.building.revision_files import checked_out
-from osc2tx.building.workers import compile_jobs, with_siblings
+from osc2tx.building.workers import Progress, compile_jobs, no_progress, with_siblings
 from osc2tx.config import ConfigFiles, GivenOptions
 from osc2tx.diagnostics import Severity
 from osc2tx_shared.classes import dataclass, replace
@@ -74,7 +73,7 @@ def compare_with(
     workers: int,
     cache: Path | None = None,
     configs: ConfigFiles | None = None,
-    progress: Callable[[int, int], None] = lambda done, total: None,
+    progress: Progress = no_progress,
 ) -> Comparison:
     """Compare the outputs of a revision with the present ones, each with its own settings.
 
@@ -142,7 +141,7 @@ class _State:
         configs: ConfigFiles,
         workers: int,
         cache: Path | None,
-        progress: Callable[[int, int], None],
+        progress: Progress,
     ) -> None:
         self._workers = workers
         self._progress = progress
@@ -170,14 +169,5 @@ class _State:
         return texts[item.made.suffix]
 
     def _compile(self, jobs: Sequence[Job]) -> list[FileResult]:
-        known = {job: result for job in jobs if (result := self._memory.load(job)) is not None}
-        missing = [job for job in jobs if job not in known]
-        numbers = count(1)
-
-        def finished(result: FileResult) -> None:
-            self._memory.keep(result)
-            self._progress(next(numbers), len(missing))
-
-        made = compile_jobs(missing, self._workers, finished, self._memory.findings)
-        known |= dict(zip(missing, made, strict=True))
-        return [known[job] for job in jobs]
+        known = self._memory.load_all(jobs)
+        return compile_jobs(jobs, self._workers, self._memory, known, self._progress)

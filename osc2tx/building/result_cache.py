@@ -11,8 +11,7 @@ a check.
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from itertools import count
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -26,14 +25,11 @@ from osc2tx.building.results import (
     Detail,
     FileResult,
     ImportedFile,
-    OutputRecord,
     check_job,
     used_files,
-    with_severities,
     without_grading,
 )
-from osc2tx.building.stored_reports import ReportReader, ReportWriter
-from osc2tx.compilation.file_reports import LossEntry
+from osc2tx.building.stored_reports import StoredTexts
 from osc2tx.compilation.roots import innermost
 from osc2tx.config import ConfigFiles
 from osc2tx.diagnostics import SourceFile
@@ -45,6 +41,9 @@ if TYPE_CHECKING:
     from osc2tx.options import CompileOptions
 
 Kind = Literal["build", "check"]
+
+STORED = ("reports", "is_complete", "scenarios", "stem", "outputs", "losses", "uses")
+"""Parts of a result that are stored as they are."""
 
 
 class ResultCache:
@@ -105,6 +104,10 @@ class ResultCache:
         is_asked = kind not in self._kinds[:1] and result.is_complete
         return is_asked and any(entry.is_runnable for entry in result.scenarios)
 
+    def load_all(self, jobs: Iterable[Job]) -> dict[Job, FileResult]:
+        """Return the results of those jobs that have one."""
+        return {job: result for job in jobs if (result := self.load(job)) is not None}
+
     def with_texts(self, result: FileResult) -> FileResult | None:
         """Return a result with the texts of its outputs; `None` if those are not stored."""
         outputs = self._store.with_texts(result.outputs) if self._store else None
@@ -136,31 +139,20 @@ class ResultCache:
 
     def _record(self, result: FileResult, places: Places, store: ResultStore) -> Mapping[str, Any]:
         assert result.source is not None and result.dependencies is not None, "it is to last"
-        writer = ReportWriter(result.source, places.write)
-        record = {
+        texts = StoredTexts(result.source, places)
+        kept = replace(result, outputs=tuple(replace(o, text=None) for o in result.outputs))
+        return {
             "dependencies": [
                 [places.write(d.asked), d.found and places.write(d.found), d.digest, d.detail]
                 for d in result.dependencies
             ],
-            "uses": result.uses,
             "imported": [
                 [places.write(i.path), i.name, places.options(i.options), i.is_needed]
                 for i in result.imported
             ],
-            "is_complete": result.is_complete,
-            "stem": result.stem,
-            "outputs": [[made.suffix, made.digest] for made in result.outputs],
-            "losses": [
-                [loss.scenario, loss.is_written, loss.summary, *loss.reasons]
-                for loss in result.losses
-            ],
-            "reports": [writer.report(report) for report in result.reports],
-            "scenarios": [writer.scenario(entry) for entry in result.scenarios],
-            "sources": writer.sources(),
+            **{name: texts.write(getattr(kept, name)) for name in STORED},
+            "sources": texts.write_others(store.keep_library),
         }
-        for key, text in writer.library.items():
-            store.keep_library(key, text)
-        return record
 
     def _restore(
         self,
@@ -189,24 +181,14 @@ class ResultCache:
         changed = [now for known, now in pairs if now is not None and now is not known]
         if changed and not self._is_used_alike(job, source, record, changed, present):
             return None
-        reader = ReportReader(
-            source, record["sources"], places.read, self._files.text, store.library
-        )
+        texts = StoredTexts(source, places)
+        texts.read_others(record["sources"], self._files.text, store.library)
         result = FileResult(
             job=job,
             source=source,
-            reports=tuple(reader.report(entry) for entry in record["reports"]),
-            is_complete=record["is_complete"],
-            scenarios=tuple(reader.scenario(entry) for entry in record["scenarios"]),
-            stem=record["stem"],
-            outputs=tuple(OutputRecord(suffix, found, None) for suffix, found in record["outputs"]),
-            losses=tuple(
-                LossEntry(scenario, is_written, summary, tuple(reasons))
-                for scenario, is_written, summary, *reasons in record["losses"]
-            ),
             dependencies=tuple(each for each in present if each is not None),
             imported=tuple(imported),
-            uses=record["uses"],
+            **{name: texts.read(record[name]) for name in STORED},
         )
         if changed:  # found at once the next time
             digests = (each.digest for each in result.dependencies or ())
@@ -274,42 +256,3 @@ def _messages(result: FileResult) -> Iterator[str]:
         yield report.help or ""
         yield from (label.message for label in report.labels)
     yield from (loss.summary for loss in result.losses)
-
-
-def check_jobs(
-    jobs: Sequence[Job],
-    *,
-    remember: bool = True,
-    workers: int | None = 1,
-    progress: Callable[[int, int], None] = lambda done, total: None,
-    configs: ConfigFiles | None = None,
-    cache: Path | None = None,
-) -> list[FileResult]:
-    """Return the diagnostics of each file, in the order of the jobs.
-
-    Args:
-        jobs: What to check.
-        remember: Whether results of earlier checks count, and these are kept.
-        workers: Number of processes that may check; one for each processor if left open.
-        progress: Called with the numbers of checked files and of all files.
-        configs: The settings files.
-        cache: Folder of the results; in the user's cache if left out.
-    """
-    memory = ResultCache("check", configs, cache)
-    recalled = ((job, memory.load(job)) for job in jobs if remember)
-    known = {job: result for job, result in recalled if result is not None}
-    missing = [job for job in jobs if job not in known]
-    numbers = count(1)
-
-    def finished(result: FileResult) -> None:
-        if remember:
-            memory.keep(result)
-        progress(next(numbers), len(missing))
-
-    if missing:
-        from osc2tx.building.workers import run_jobs  # a check that recalls all needs no process
-
-        made = run_jobs(check_job, missing, workers, finished)
-        known |= dict(zip(missing, made, strict=True))
-        memory.close()
-    return with_severities([known[job] for job in jobs], configs or ConfigFiles())

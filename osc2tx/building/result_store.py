@@ -13,7 +13,7 @@ from osc2tx.support.records import digest
 from osc2tx_shared.cache import forget_the_oldest, read_own, write_own
 from osc2tx_shared.classes import replace
 
-FORMAT = 6
+FORMAT = 7
 MOST_RECORDS = 4  # of one text: with imports as several branches have them
 MOST_FILES = 128  # in each of the 256 folders of a kind
 
@@ -67,9 +67,12 @@ class ResultStore:
         is_whole = all(digest(made.text.encode()) == made.digest for made in found if made.text)
         return found if is_whole else None
 
-    def keep_library(self, key: str, text: str) -> None:
-        """Store the text of a library file under its digest."""
-        self._write(self._place("library", key), text.encode())
+    def keep_library(self, text: str) -> str:
+        """Store the text of a library file; return its digest."""
+        data = text.encode()
+        key = digest(data)
+        self._write(self._place("library", key), data)
+        return key
 
     def library(self, key: str) -> str:
         """Return the text of a library file.

@@ -1,133 +1,117 @@
-"""Diagnostics as plain lists for `result_cache`; source texts are read again."""
+"""Diagnostics and other parts of results as plain lists for `result_cache`, and back again.
+
+A list begins with what it is: `tuple`, or a class and then its fields. A span has the number of its
+text, its start and its end; source texts are read again.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import fields
+from enum import Enum
 from pathlib import Path
 from typing import Any
 
+from osc2tx.building.places import Places
+from osc2tx.building.results import OutputRecord
+from osc2tx.compilation.file_reports import LossEntry
 from osc2tx.diagnostics import Diagnostic, Label, Severity, SourceFile, Span
 from osc2tx.diagnostics.fixes import Edit, Fix
 from osc2tx.diagnostics.report import ScenarioEntry
-from osc2tx.support.records import digest
+
+_CLASSES = (Diagnostic, Edit, Fix, Label, LossEntry, OutputRecord, ScenarioEntry, Severity)
+CLASSES: Mapping[str, Callable[..., Any]] = {each.__name__: each for each in _CLASSES}
+TUPLE, SPAN, SOURCE = "tuple", "Span", "SourceFile"
 
 
-class ReportWriter:
-    """Writes the reports of one source file; places are index of the text, start, end.
+class StoredTexts:
+    """The source texts of a record, and the values that point into them.
 
-    Attributes:
-        library: The texts of the library that are pointed into, by digest.
+    Args:
+        source: The file itself, the first text.
+        places: Its folders, from which paths are stored.
     """
 
-    def __init__(self, source: SourceFile, write: Callable[[str], str]) -> None:
-        """Begin with the file itself as text 0.
-
-        Args:
-            source: The file.
-            write: Returns the text to store for a path.
-        """
+    def __init__(self, source: SourceFile, places: Places) -> None:
         self._sources = [source]
-        self._write = write
-        self.library: dict[str, str] = {}
+        self._places = places
 
-    def report(self, report: Diagnostic) -> list[Any]:
-        """Return a diagnostic as a list."""
-        return [
-            report.code,
-            report.severity.value,
-            report.message,
-            self._place(report.primary) if report.primary else None,
-            [[self._place(label.span), label.message] for label in report.labels],
-            list(report.notes),
-            report.help,
-            [self._fix(fix) for fix in report.fixes],
-        ]
+    def write(self, value: Any) -> Any:
+        """Return a value as JSON."""
+        match value:
+            case Span():
+                return [SPAN, self._number(value.source), value.start, value.end]
+            case SourceFile():
+                return [SOURCE, self._number(value)]
+            case tuple():
+                return [TUPLE, *map(self.write, value)]
+            case Enum():
+                return [type(value).__name__, value.value]
+        if type(value).__name__ in CLASSES:
+            own = (getattr(value, field.name) for field in fields(value))
+            return [type(value).__name__, *map(self.write, own)]
+        return dict(value) if isinstance(value, Mapping) else value
 
-    def _fix(self, fix: Fix) -> list[Any]:
-        edits = [[self._place(edit.span), edit.text] for edit in fix.edits]
-        return [fix.title, edits, fix.is_safe]
+    def read(self, stored: Any) -> Any:
+        """Return a value that was written.
 
-    def scenario(self, entry: ScenarioEntry) -> list[Any]:
-        """Return an entry as a list."""
-        texts = [entry.name, entry.level, list(entry.open), entry.summary]
-        return [self._index(entry.source), *texts, entry.is_runnable, dict(entry.values)]
+        Raises:
+            KeyError, IndexError, TypeError, ValueError: Nothing that was written.
+        """
+        if not isinstance(stored, list):
+            return stored
+        kind, *values = stored
+        if kind == SPAN:
+            return Span(self._sources[values[0]], *values[1:])
+        if kind == SOURCE:
+            return self._sources[values[0]]
+        own = tuple(map(self.read, values))
+        return own if kind == TUPLE else CLASSES[kind](*own)
 
-    def sources(self) -> list[Any]:
-        """Return the texts after the first: name, path, digest if it is one of the library."""
-        return [self._entry(source) for source in self._sources[1:]]
-
-    def _entry(self, source: SourceFile) -> list[Any]:
-        if source.path is not None:
-            return [source.name, self._write(str(source.path)), None]
-        key = digest(source.text.encode())
-        self.library[key] = source.text
-        return [source.name, None, key]
-
-    def _place(self, span: Span) -> list[int]:
-        return [self._index(span.source), span.start, span.end]
-
-    def _index(self, source: SourceFile) -> int:
+    def _number(self, source: SourceFile) -> int:
         for index, known in enumerate(self._sources):
             if known is source:
                 return index
         self._sources.append(source)
         return len(self._sources) - 1
 
-
-class ReportReader:
-    """Reads what `ReportWriter` wrote."""
-
-    def __init__(
-        self,
-        source: SourceFile,
-        others: Sequence[Sequence[Any]],
-        place: Callable[[str], str],
-        read: Callable[[str], bytes | None],
-        library: Callable[[str], str],
-    ) -> None:
-        """Take the texts.
+    def write_others(self, keep: Callable[[str], str]) -> list[Any]:
+        """Return the texts after the first: name, path, digest if it is one of the library.
 
         Args:
-            source: The file itself.
-            others: The others, as written.
-            place: Returns the path that was written.
-            read: Returns the text of a file.
-            library: Returns a text of the library by its digest.
+            keep: Stores a text of the library; returns its digest.
         """
-        self._sources = [source]
+        return [
+            (
+                [each.name, None, keep(each.text)]
+                if each.path is None
+                else [each.name, self._places.write(str(each.path)), None]
+            )
+            for each in self._sources[1:]
+        ]
+
+    def read_others(
+        self,
+        others: Sequence[Sequence[Any]],
+        text_of: Callable[[str], bytes | None],
+        library: Callable[[str], str],
+    ) -> None:
+        """Add the texts that were written.
+
+        Args:
+            others: As `write_others` returns them.
+            text_of: Returns the text of a file.
+            library: Returns a text of the library by its digest.
+
+        Raises:
+            ValueError: There is no such text any more.
+        """
         for name, written, key in others:
             if written is None:
                 self._sources.append(SourceFile(name, library(key)))
                 continue
-            path = place(written)
-            data = read(path)
+            path = self._places.read(written)
+            data = text_of(path)
             if data is None:
                 raise ValueError(path)
             self._sources.append(SourceFile(name, data.decode(), Path(path)))
-
-    def report(self, entry: Sequence[Any]) -> Diagnostic:
-        """Return a diagnostic."""
-        code, severity, message, primary, labels, notes, help, fixes = entry
-        return Diagnostic(
-            code,
-            Severity(severity),
-            message,
-            self._span(primary) if primary else None,
-            tuple(Label(self._span(place), remark) for place, remark in labels),
-            tuple(notes),
-            help,
-            tuple(map(self._fix, fixes)),
-        )
-
-    def _fix(self, entry: Sequence[Any]) -> Fix:
-        title, edits, is_safe = entry
-        return Fix(title, tuple(Edit(self._span(place), text) for place, text in edits), is_safe)
-
-    def scenario(self, entry: Sequence[Any]) -> ScenarioEntry:
-        """Return the level of a scenario."""
-        index, name, level, openings, *others = entry
-        return ScenarioEntry(self._sources[index], name, level, tuple(openings), *others)
-
-    def _span(self, place: Sequence[int]) -> Span:
-        index, start, end = place
-        return Span(self._sources[index], start, end)

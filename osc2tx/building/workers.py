@@ -8,21 +8,28 @@ most commands compile one file.
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import cache, partial
+from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from osc2tx.building.jobs import Job
-from osc2tx.building.results import FileResult, compile_job, failed_job
+from osc2tx.building.result_cache import ResultCache
+from osc2tx.building.results import (
+    FileResult,
+    check_job,
+    compile_job,
+    failed_job,
+    with_severities,
+)
 
 if TYPE_CHECKING:
     from multiprocessing.connection import Connection
 
     from osc2tx.compilation.driver import Memory
     from osc2tx.config import ConfigFiles
-    from osc2tx.support.records import Records
 
 FEWEST_FILES = 8  # for a second process: starting one takes as long as compiling a few files
 
@@ -31,8 +38,15 @@ Work = Callable[..., FileResult]
 
 Finished = Callable[[FileResult], None]
 
+Progress = Callable[[int, int], None]
+"""Takes the numbers of files that are done, and of all."""
+
 _memory: Memory = {}
 """Of a worker, which ends with the build."""
+
+
+def no_progress(done: int, total: int) -> None:
+    """Show nothing."""
 
 
 def processors() -> int:
@@ -45,30 +59,61 @@ def processors() -> int:
 def compile_jobs(
     jobs: Sequence[Job],
     workers: int,
-    finished: Finished = lambda result: None,
-    findings: Records | None = None,
+    memory: ResultCache | None = None,
+    known: Mapping[Job, FileResult] | None = None,
+    progress: Progress = no_progress,
 ) -> list[FileResult]:
     """Return the results of all jobs, in their order; first remove what killed builds have left.
 
     Args:
         jobs: What to compile.
         workers: How many processes may work at once.
-        finished: Is given each result as soon as there is one.
-        findings: Findings of earlier builds about documents.
+        memory: Keeps each result as soon as there is one.
+        known: Results that are there.
+        progress: Called with the numbers of compiled files and of all files that are not known.
     """
-    if jobs:
+    if any(job not in (known or {}) for job in jobs):
         from osc2tx_shared.own_folders import REVISION, remove_left_over
 
         remove_left_over(REVISION)
-    work = partial(compile_job, findings=findings)
-    return run_jobs(work, jobs, workers, finished)
+    work = partial(compile_job, findings=memory.findings if memory else None)
+    return run_jobs(work, jobs, workers, memory, known, progress)
+
+
+def check_jobs(
+    jobs: Sequence[Job],
+    *,
+    remember: bool = True,
+    workers: int | None = 1,
+    progress: Progress = no_progress,
+    configs: ConfigFiles,
+    cache: Path | None = None,
+) -> list[FileResult]:
+    """Return the diagnostics of each file, in the order of the jobs.
+
+    Args:
+        jobs: What to check.
+        remember: Whether results of earlier checks count, and these are kept.
+        workers: Number of processes that may check; one for each processor if left open.
+        progress: Called with the numbers of checked files and of all files that are not known.
+        configs: The settings files.
+        cache: Folder of the results; in the user's cache if left out.
+    """
+    memory = ResultCache("check", configs, cache) if remember else None
+    known = memory.load_all(jobs) if memory else {}
+    results = run_jobs(check_job, jobs, workers, memory, known, progress)
+    if memory and len(known) < len(jobs):
+        memory.close()
+    return with_severities(results, configs)
 
 
 def run_jobs(
     work: Work,
     jobs: Sequence[Job],
     workers: int | None,
-    finished: Finished = lambda result: None,
+    memory: ResultCache | None = None,
+    known: Mapping[Job, FileResult] | None = None,
+    progress: Progress = no_progress,
 ) -> list[FileResult]:
     """Return what some work makes of all jobs, in their order.
 
@@ -76,23 +121,29 @@ def run_jobs(
         work: The activity on each job.
         jobs: The jobs.
         workers: Number of processes that may work at once; one for each processor if left open.
-        finished: Is given each result as soon as there is one.
+        memory: Keeps each result as soon as there is one.
+        known: Results that are there.
+        progress: Called with the numbers of jobs that are done and of all that are not known.
     """
-    workers = workers or processors()
-    results: dict[Job, FileResult] = {}
+    results = dict(known or {})
+    missing = [job for job in jobs if job not in results]
+    numbers = count(1)
 
     def done(result: FileResult) -> None:
         results[result.job] = result
-        finished(result)
+        if memory is not None:
+            memory.keep(result)
+        progress(next(numbers), len(missing))
 
-    memory: Memory = {}
-    if workers == 1 or len(jobs) < FEWEST_FILES:
-        for job in jobs:
-            done(work(job, memory))
+    workers = workers or processors()
+    if workers == 1 or len(missing) < FEWEST_FILES:
+        facts: Memory = {}
+        for job in missing:
+            done(work(job, facts))
         return [results[job] for job in jobs]
-    done(work(jobs[0], memory))  # loads the compiler, which forked processes then share
-    _work_in_pool(work, jobs[1:], workers, done)
-    for job in jobs[1:]:
+    done(work(missing[0], {}))  # loads the compiler, which forked processes then share
+    _work_in_pool(work, missing[1:], workers, done)
+    for job in missing[1:]:
         if job not in results:
             done(_work_alone(work, job))
     return [results[job] for job in jobs]

@@ -10,12 +10,11 @@ import click
 
 from osc2tx.building.baseline import Baselines
 from osc2tx.building.jobs import compile_all, run_all
-from osc2tx.cli.diff_output import print_diff, read_text
+from osc2tx.cli.file_changes import print_diff, read_text
 from osc2tx.cli.options import (
     affected_option,
     affected_sources,
     cache_option,
-    compile_options,
     seen_from,
     stated_sources,
     target_options,
@@ -49,16 +48,17 @@ class _Task:
     out_dir: Path
     given: GivenOptions
     reporter: Reporter
-    workers: int
-    force: bool
-    prune: bool
-    cache: Path | None
+    options: BuildOptions
+
+    @property
+    def is_kept(self) -> bool:
+        """Whether results are kept for the next build."""
+        return cache_folder(self.options.cache) is not None
 
 
 @click.command()
 @click.argument("paths", metavar="[PATH...]", nargs=-1, type=click.Path())
 @click.option("-o", "--out", "out_dir", type=click.Path(path_type=Path), help="Output folder.")
-@compile_options
 @target_options
 @click.option(
     "--emit",
@@ -121,17 +121,25 @@ def build(
         )
     if diff and reporter.form != "text":
         raise click.UsageError("--diff and --output-format both print to standard output")
+    from osc2tx.building.build import BuildOptions
     from osc2tx.building.workers import processors
 
     is_whole = not paths and affected is None
     sources, out = _places(paths, out_dir)
     sources = affected_sources(sources, affected, given)
-    workers = workers or processors()
-    task = _Task(sources, out, given, reporter, workers, force, prune or is_whole, cache)
+    options = BuildOptions(
+        check_only=reads_only,
+        force=force,
+        prune=prune or is_whole,
+        workers=workers or processors(),
+        want_texts=diff,
+        cache=cache,
+    )
+    task = _Task(sources, out, given, reporter, options)
     if diff_against is not None:
         return _diff_against(task, diff_against)
     if reads_only:
-        return _compare(task, check=check_only, diff=diff)
+        return _compare(task, check=check_only)
     return _watch(task) if watch else _write(task)[0]
 
 
@@ -169,23 +177,22 @@ def _stated_out_dir(project: Config, here: Path) -> Path:
     return out_dir
 
 
-def _run(task: _Task, options: BuildOptions) -> tuple[BuildResult, Exit, str]:
+def _run(task: _Task) -> tuple[BuildResult, Exit, str]:
     """Build, print the diagnostics; return the exit code for them, and a summary."""
     from osc2tx.building.build import build as build_files
 
     configs = ConfigFiles()
-    is_kept = cache_folder(task.cache) is not None
-    with progress_bar("compiling", is_kept=is_kept) as progress:
+    with progress_bar("compiling", is_kept=task.is_kept) as progress:
         result = build_files(
             task.paths,
             task.out_dir,
             task.given,
-            replace(options, cache=task.cache),
+            task.options,
             configs=configs,
             progress=progress,
             waiting=_print_waiting,
         )
-    changes = result.changes if options.check_only else ()
+    changes = result.changes if task.options.check_only else ()
     faults = [
         FileFault(change.path.as_posix(), "stale-output", _fault(change)) for change in changes
     ]
@@ -207,11 +214,9 @@ def _print_waiting(process: str) -> None:
 
 
 def _write(task: _Task) -> tuple[Exit, Sequence[FileResult]]:
-    from osc2tx.building.build import BuildOptions
     from osc2tx.building.plan import PROTECTED, State
 
-    options = BuildOptions(force=task.force, prune=task.prune, workers=task.workers)
-    result, code, counts = _run(task, options)
+    result, code, counts = _run(task)
     for change in result.remaining():
         if change.state in PROTECTED:
             complain(f"{change.path}: {change.state.value}; --force overwrites it")
@@ -241,11 +246,9 @@ def _print_losses(reporter: Reporter, results: Sequence[FileResult]) -> None:
         reporter.say(f"XML for {written} of {scenarios}; the reports state the reasons")
 
 
-def _compare(task: _Task, *, check: bool, diff: bool) -> Exit:
-    from osc2tx.building.build import BuildOptions
-
-    options = BuildOptions(check_only=True, want_texts=diff, workers=task.workers)
-    result, code, counts = _run(task, options)
+def _compare(task: _Task, *, check: bool) -> Exit:
+    diff = task.options.want_texts
+    result, code, counts = _run(task)
     for change in result.changes:
         if diff and change.text is not None:
             print_diff(str(change.path), read_text(change.path), change.text)
@@ -268,14 +271,13 @@ def _diff_against(task: _Task, revision: str) -> Exit:
     from osc2tx.building.compare import compare_with, diff_lines
 
     configs = ConfigFiles()
-    is_kept = cache_folder(task.cache) is not None
-    with progress_bar("compiling", is_kept=is_kept) as progress:
+    with progress_bar("compiling", is_kept=task.is_kept) as progress:
         comparison = compare_with(
             revision,
             task.paths,
             task.given,
-            workers=task.workers,
-            cache=task.cache,
+            workers=task.options.workers,
+            cache=task.options.cache,
             configs=configs,
             progress=progress,
         )

@@ -12,13 +12,12 @@ import click
 
 from osc2tx.building.baseline import Baselines
 from osc2tx.building.jobs import Job, find_jobs, run_all
-from osc2tx.building.result_cache import check_jobs
 from osc2tx.building.results import check as check_compilation
+from osc2tx.building.workers import check_jobs
 from osc2tx.cli.options import (
     affected_option,
     affected_sources,
     cache_option,
-    compile_options,
     sources_or_stated,
     target_options,
     workers_option,
@@ -41,7 +40,6 @@ MOST_LISTED = 10  # scenarios that are in folders and not in named files
 
 @click.command()
 @click.argument("paths", metavar="[PATH]...", nargs=-1, type=click.Path())
-@compile_options
 @target_options
 @affected_option
 @click.option(
@@ -86,15 +84,15 @@ def check(
     """
     if show_diff and reporter.form != "text":
         raise click.UsageError("--diff and --output-format both print to standard output")
-    fixes = None
-    if is_fixing or unsafe or show_diff:
-        from osc2tx.cli.fixing import fix_files, fix_input, fixes_to_apply  # loads the build
-
-        fixes = fixes_to_apply(is_fixing=is_fixing, unsafe=unsafe, show_diff=show_diff)
+    is_fixing = is_fixing or show_diff
+    if unsafe and not is_fixing:
+        raise click.UsageError("--unsafe-fixes is for --fix and --diff")
     if is_standard_input(paths, stdin_filename):
         job, text = job_of_standard_input(stdin_filename, given)
-        if fixes is not None:
-            return fix_input(job, text, fixes, reporter)
+        if is_fixing:
+            from osc2tx.cli.fixing import fix_input  # loads the build
+
+            return fix_input(job, text, reporter, unsafe=unsafe, show_diff=show_diff)
         return _check_input(job, text, reporter)
     asked = sources_or_stated(paths, "check")
     paths = affected_sources(asked, affected, given)
@@ -106,8 +104,10 @@ def check(
     )
     results = checked(jobs, is_kept=is_kept)
     outcome = Exit.OK
-    if fixes is not None:
-        fixed, outcome = fix_files(results, fixes, reporter)
+    if is_fixing:
+        from osc2tx.cli.fixing import fix_files
+
+        fixed, outcome = fix_files(results, reporter, unsafe=unsafe, show_diff=show_diff)
         if show_diff:
             return outcome
         again = dict(zip(fixed, checked(fixed, is_kept=is_kept), strict=True))
@@ -126,7 +126,7 @@ def check(
     if any(Path(path).is_dir() for path in paths):
         return max(code, reporter.warn(configs.unmatched_tables()))
     answer = reporter.session.answer
-    if fixes is None and not write_baseline and is_kept and cache is None and answer is not None:
+    if not is_fixing and not write_baseline and is_kept and cache is None and answer is not None:
         _keep_answer(answer, code, printed, results, configs)
     return code
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import click
 
-from osc2tx.cli.options import compile_options, seen_from, target_options
+from osc2tx.cli.options import seen_from, target_options
 from osc2tx.config import ConfigFiles, GivenOptions, InForce, Origin
 from osc2tx.support.paths import real_path
 from osc2tx_shared.text import in_json, say
@@ -15,7 +15,6 @@ from osc2tx_shared.text import in_json, say
 
 @click.command()
 @click.argument("path", metavar="[PATH]", default=".", type=click.Path(path_type=Path))
-@compile_options
 @target_options
 def config(path: Path, given: GivenOptions) -> None:
     """Show the effective settings for a scenario file or a folder, and their origins."""

@@ -7,15 +7,10 @@ from pathlib import Path
 import click
 
 from osc2tx.building.jobs import compile_all, run_all
-from osc2tx.cli.diff_output import print_diff
+from osc2tx.cli.file_changes import print_diff, write_source
 from osc2tx.cli.options import compile_options, sources_or_stated
 from osc2tx.cli.reporting import Exit, Reporter, count_of, report_options
-from osc2tx.cli.source_files import write_source
-from osc2tx.cli.standard_input import (
-    compilation_of_standard_input,
-    is_standard_input,
-    stdin_filename,
-)
+from osc2tx.cli.standard_input import is_standard_input, job_of_standard_input, stdin_filename
 from osc2tx.compilation.driver import Compilation
 from osc2tx.config import GivenOptions
 from osc2tx.diagnostics.report import FileFault
@@ -46,8 +41,10 @@ def fmt(
     if show_diff and reporter.form != "text":
         raise click.UsageError("--diff and --output-format both print to standard output")
     if is_standard_input(paths, stdin_filename):
-        compilation = compilation_of_standard_input(stdin_filename, given)
-        return _format_input(compilation, reporter, check_only=check_only, show_diff=show_diff)
+        job, text = job_of_standard_input(stdin_filename, given)
+        return _format_input(
+            job.compilation(text=text), reporter, check_only=check_only, show_diff=show_diff
+        )
     compilations = compile_all(sources_or_stated(paths, "format"), given)
     formatted: dict[Path, str] = {}
 

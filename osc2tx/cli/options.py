@@ -14,7 +14,6 @@ import click
 from osc2tx.config import Config, ConfigFiles, GivenOptions
 from osc2tx.options import DIALECTS, ONE_OF_POLICIES, STANDARDS, TARGETS, XML_PROFILES, XML_VERSIONS
 from osc2tx.support.paths import real_path
-from osc2tx_shared.classes import replace
 
 
 def sources_or_stated(paths: tuple[str, ...], what: str) -> tuple[str, ...]:
@@ -119,115 +118,98 @@ def _complete_scenario(
     return [name for name in names if name.startswith(incomplete)]
 
 
-def compile_options(command: Callable[..., Any]) -> Callable[..., Any]:
-    """Add the options of compilation; the command gets them as `given`."""
+def gathered(
+    name: str, make: Callable[..., object], *options: Callable[[Any], Any]
+) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """Return a decorator that adds options to a command, which gets their values as one argument.
 
-    @wraps(command)
-    def with_given(
-        *args: Any,
-        std: str | None,
-        dialect: str | None,
-        one_of: str | None,
-        import_paths: tuple[str, ...],
-        **more: Any,
-    ) -> Any:
-        given = GivenOptions(std, dialect, one_of, import_paths=import_paths or None)
-        return command(*args, given=given, **more)
+    Args:
+        name: The argument of the command.
+        make: Takes the values by name, and returns the argument.
+        options: The options, in the order of the help page.
+    """
 
-    options = (
-        click.option("--std", type=click.Choice(STANDARDS), help="Version of the standard."),
-        click.option("--dialect", type=click.Choice(DIALECTS), help="Dialect of the sources."),
-        click.option("--one-of", type=click.Choice(ONE_OF_POLICIES), help="Meaning of `one_of`."),
-        click.option(
-            "-I",
-            "import_paths",
-            metavar="DIR",
-            type=click.Path(exists=True, file_okay=False, resolve_path=True),
-            multiple=True,
-            help="Folder where `import a.b` finds `a/b.osc`, if it is not in the project.",
-        ),
-    )
-    for option in reversed(options):
-        with_given = option(with_given)
-    return with_given
+    def decorate(command: Callable[..., Any]) -> Callable[..., Any]:
+        names: list[str] = []
+
+        @wraps(command)
+        def with_argument(*args: Any, **values: Any) -> Any:
+            own = {each: values.pop(each) for each in names}
+            return command(*args, **values, **{name: make(**own)})
+
+        decorated: Any = with_argument
+        for option in reversed(options):
+            decorated = option(decorated)
+            names.append(decorated.__click_params__[-1].name)
+        return with_argument
+
+    return decorate
 
 
-def target_options(command: Callable[..., Any]) -> Callable[..., Any]:
-    """Add the options of outputs; they become part of `given`."""
+def _given(*, no_verify: bool = False, **stated: Any) -> GivenOptions:
+    verify = False if no_verify else None
+    return GivenOptions(**{name: value or None for name, value in stated.items()}, verify=verify)
 
-    @wraps(command)
-    def with_target(
-        *args: Any,
-        given: GivenOptions,
-        target: str | None,
-        xml_version: str | None,
-        xml_profile: str | None,
-        allow_approx: bool,
-        signal: tuple[str, ...],
-        spawn: tuple[str, ...],
-        map_path: tuple[str, ...],
-        no_verify: bool,
-        **more: Any,
-    ) -> Any:
-        stated = replace(
-            given,
-            target=target,
-            xml_version=xml_version,
-            xml_profile=xml_profile,
-            allow_approx=allow_approx or None,
-            signal=signal or None,
-            spawn=spawn or None,
-            map_path=map_path or None,
-            verify=False if no_verify else None,
-        )
-        return command(*args, given=stated, **more)
 
-    options = (
-        click.option(
-            "--target",
-            type=click.Choice(TARGETS),
-            help="Outputs: `xosc` reports constructs that OpenSCENARIO XML cannot express as"
-            " errors, `all` omits such XML.  [default: all]",
-        ),
-        click.option(
-            "--xml-version",
-            type=click.Choice(XML_VERSIONS),
-            help="Version of OpenSCENARIO XML.  [default: 1.3]",
-        ),
-        click.option(
-            "--xml-profile",
-            type=click.Choice(XML_PROFILES),
-            help="Tool that is to read the XML.  [default: generic]",
-        ),
-        click.option(
-            "--allow-approx",
-            is_flag=True,
-            help="Write approximated XML as well.",
-        ),
-        click.option(
-            "--signal",
-            metavar="NAME@SECONDS",
-            multiple=True,
-            help="For XML: time of an external event.",
-        ),
-        click.option(
-            "--spawn",
-            metavar="ACTOR=ROAD,LANE,S",
-            multiple=True,
-            help="For XML: start position of an actor that the scenario does not place.",
-        ),
-        click.option(
-            "--map-path",
-            type=click.Path(exists=True),
-            multiple=True,
-            help="For XML: folder with maps, or the map itself.",
-        ),
-        click.option(
-            "--no-verify",
-            is_flag=True,
-            help="Do not play the XML: its grades are computed, not measured.",
-        ),
-    )
-    for option in reversed(options):
-        with_target = option(with_target)
-    return with_target
+_COMPILE = (
+    click.option("--std", type=click.Choice(STANDARDS), help="Version of the standard."),
+    click.option("--dialect", type=click.Choice(DIALECTS), help="Dialect of the sources."),
+    click.option("--one-of", type=click.Choice(ONE_OF_POLICIES), help="Meaning of `one_of`."),
+    click.option(
+        "-I",
+        "import_paths",
+        metavar="DIR",
+        type=click.Path(exists=True, file_okay=False, resolve_path=True),
+        multiple=True,
+        help="Folder where `import a.b` finds `a/b.osc`, if it is not in the project.",
+    ),
+)
+compile_options = gathered("given", _given, *_COMPILE)
+"""Adds the options of compilation; the command gets them as `given`."""
+
+target_options = gathered(
+    "given",
+    _given,
+    *_COMPILE,
+    click.option(
+        "--target",
+        type=click.Choice(TARGETS),
+        help="Outputs: `xosc` reports constructs that OpenSCENARIO XML cannot express as"
+        " errors, `all` omits such XML.  [default: all]",
+    ),
+    click.option(
+        "--xml-version",
+        type=click.Choice(XML_VERSIONS),
+        help="Version of OpenSCENARIO XML.  [default: 1.3]",
+    ),
+    click.option(
+        "--xml-profile",
+        type=click.Choice(XML_PROFILES),
+        help="Tool that is to read the XML.  [default: generic]",
+    ),
+    click.option("--allow-approx", is_flag=True, help="Write approximated XML as well."),
+    click.option(
+        "--signal",
+        metavar="NAME@SECONDS",
+        multiple=True,
+        help="For XML: time of an external event.",
+    ),
+    click.option(
+        "--spawn",
+        metavar="ACTOR=ROAD,LANE,S",
+        multiple=True,
+        help="For XML: start position of an actor that the scenario does not place.",
+    ),
+    click.option(
+        "--map-path",
+        type=click.Path(exists=True),
+        multiple=True,
+        help="For XML: folder with maps, or the map itself.",
+    ),
+    click.option(
+        "--no-verify",
+        is_flag=True,
+        help="Do not play the XML: its grades are computed, not measured.",
+    ),
+)
+"""Adds the options of compilation and of outputs; the command gets them as `given`."""

@@ -9,17 +9,17 @@ from __future__ import annotations
 import os
 import re
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from enum import IntEnum
-from functools import wraps
 from pathlib import Path
-from typing import Any, Literal, TypeAlias, get_args
+from typing import Literal, TypeAlias, get_args
 
 import click
 
 from osc2tx.building.answers import Answer
 from osc2tx.building.baseline import Baselines
 from osc2tx.building.severities import Severities
+from osc2tx.cli.options import gathered
 from osc2tx.compilation.file_reports import Reportable, apply_suppressions
 from osc2tx.config import ConfigFiles
 from osc2tx.diagnostics import CODES, Severity
@@ -227,48 +227,42 @@ def _address(context: click.Context, parameter: click.Parameter, value: str | No
 quiet_option = click.option("-q", "--quiet", is_flag=True, help="Print only errors.")
 
 
-def report_options(command: Callable[..., Any]) -> Callable[..., Any]:
-    """Add the options of reports; the command gets a `reporter`."""
+def _reporter(
+    output_format: OutputFormat,
+    quiet: bool,
+    strict: bool,
+    max_diagnostics: int | None,
+    docs_url: str | None,
+) -> Reporter:
+    session = click.get_current_context().find_object(Session) or Session()
+    return Reporter(session, output_format, strict, max_diagnostics, quiet, docs_url)
 
-    @wraps(command)
-    def with_reporter(
-        *args: Any,
-        output_format: OutputFormat,
-        strict: bool,
-        max_diagnostics: int | None,
-        quiet: bool,
-        docs_url: str | None,
-        **more: Any,
-    ) -> Any:
-        session = click.get_current_context().find_object(Session) or Session()
-        reporter = Reporter(session, output_format, strict, max_diagnostics, quiet, docs_url)
-        return command(*args, reporter=reporter, **more)
 
-    options = (
-        click.option(
-            "--output-format",
-            type=click.Choice(OUTPUT_FORMATS),
-            default="text",
-            help="Form of diagnostics; all but `text` go to standard output.",
-        ),
-        quiet_option,
-        click.option("--strict", is_flag=True, help="Exit with 1 if there are warnings."),
-        click.option(
-            "--max-diagnostics",
-            type=click.IntRange(min=0),
-            metavar="N",
-            help=f"Show at most N of one file, 0 for all.  [default: {MOST_SHOWN}; documents: 0]",
-        ),
-        click.option(
-            "--docs-url",
-            metavar="URL",
-            callback=_address,
-            help="Address of a copy of this documentation, for links in SARIF and rdjson.",
-        ),
-    )
-    for option in reversed(options):
-        with_reporter = option(with_reporter)
-    return with_reporter
+report_options = gathered(
+    "reporter",
+    _reporter,
+    click.option(
+        "--output-format",
+        type=click.Choice(OUTPUT_FORMATS),
+        default="text",
+        help="Form of diagnostics; all but `text` go to standard output.",
+    ),
+    quiet_option,
+    click.option("--strict", is_flag=True, help="Exit with 1 if there are warnings."),
+    click.option(
+        "--max-diagnostics",
+        type=click.IntRange(min=0),
+        metavar="N",
+        help=f"Show at most N of one file, 0 for all.  [default: {MOST_SHOWN}; documents: 0]",
+    ),
+    click.option(
+        "--docs-url",
+        metavar="URL",
+        callback=_address,
+        help="Address of a copy of this documentation, for links in SARIF and rdjson.",
+    ),
+)
+"""Adds the options of reports; the command gets a `reporter`."""
 
 
 def report_failure(message: str, arguments: Sequence[str], session: Session) -> None:

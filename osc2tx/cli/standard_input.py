@@ -4,17 +4,12 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import click
 
-from osc2tx.building.jobs import Job, job_for
-from osc2tx.compilation.inputs import Input, InputError
-from osc2tx.config import ConfigFiles, GivenOptions
-from osc2tx.support.paths import real_path
-
-if TYPE_CHECKING:
-    from osc2tx.compilation.driver import Compilation
+from osc2tx.building.jobs import Job, job_of_text
+from osc2tx.compilation.inputs import InputError
+from osc2tx.config import GivenOptions
 
 WORD = "-"
 UNNAMED = "stdin.osc"
@@ -39,16 +34,6 @@ def is_standard_input(paths: tuple[str, ...], name: str | None) -> bool:
     return paths == (WORD,)
 
 
-def compilation_of_standard_input(name: str | None, given: GivenOptions) -> Compilation:
-    """Return the compilation of the text on standard input; no stage has run yet.
-
-    Raises:
-        InputError: If it is no text in UTF-8.
-    """
-    job, text = job_of_standard_input(name, given)
-    return job.compilation(text=text)
-
-
 def job_of_standard_input(name: str | None, given: GivenOptions) -> tuple[Job, str]:
     """Return how to compile the text on standard input, and the text.
 
@@ -61,6 +46,4 @@ def job_of_standard_input(name: str | None, given: GivenOptions) -> tuple[Job, s
     except UnicodeDecodeError as error:
         raise InputError(f"standard input: no UTF-8 at byte offset {error.start}") from None
     path = Path(name or UNNAMED)
-    folder = real_path(path.parent)
-    item = Input(path, folder / path.name, path.parent, is_asked=True)
-    return job_for(item, given, ConfigFiles().for_source(path)), text
+    return job_of_text(path.name, path.parent, given), text

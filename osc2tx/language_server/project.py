@@ -6,8 +6,8 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
-from osc2tx.building.jobs import Job, find_jobs, job_for
-from osc2tx.compilation.inputs import Input, InputError
+from osc2tx.building.jobs import Job, find_jobs, job_of_text
+from osc2tx.compilation.inputs import InputError
 from osc2tx.config import ConfigFiles, GivenOptions
 from osc2tx.language_server.documents import Document
 from osc2tx.semantics import SemanticModel
@@ -87,8 +87,7 @@ class Project:
 
 
 def _job_for(path: Path) -> Job:
-    item = Input(path, real_path(path.parent) / path.name, path.parent, is_asked=True)
-    return job_for(item, GivenOptions(), ConfigFiles().for_source(path))
+    return job_of_text(path.name, path.parent, GivenOptions())
 
 
 def _sources_of(path: Path) -> list[Path]:

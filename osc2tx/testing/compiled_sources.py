@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -14,7 +13,7 @@ from osc2tx.building.jobs import Job, find_jobs
 from osc2tx.building.plan import place_outputs
 from osc2tx.building.result_cache import ResultCache
 from osc2tx.building.severities import Severities
-from osc2tx.building.workers import compile_jobs, with_siblings
+from osc2tx.building.workers import Progress, compile_jobs, no_progress, with_siblings
 from osc2tx.compilation.file_reports import apply_suppressions
 from osc2tx.config import ConfigFiles, GivenOptions
 from osc2tx.diagnostics import Severity
@@ -63,7 +62,7 @@ class CompiledSources:
         self,
         places: Iterable[Path],
         workers: int,
-        progress: Callable[[int, int], None] = lambda done, total: None,
+        progress: Progress = no_progress,
     ) -> None:
         """Compile the sources of projects that are in some places, in several processes.
 
@@ -139,26 +138,18 @@ class CompiledSources:
         self,
         jobs: Sequence[Job],
         workers: int,
-        progress: Callable[[int, int], None] = lambda done, total: None,
+        progress: Progress = no_progress,
     ) -> list[FileResult]:
         """Return results that have a module; XML is made on request."""
-        asked = {job: self._with_module(job) for job in jobs}
         known: dict[Job, FileResult] = {}
-        for job, alone in asked.items():
+        wanted: list[Job] = []
+        for job in jobs:
+            alone = self._with_module(job)
             kinds = (alone,) if job.options.target == "xosc" else (job, alone)
             found = next((each for kind in kinds if (each := self._memory.load(kind))), None)
-            known |= {job: found} if found is not None else {}
-        missing = [job for job in jobs if job not in known]
-        numbers = count(1)
-
-        def finished(result: FileResult) -> None:
-            self._memory.keep(result)
-            progress(next(numbers), len(missing))
-
-        wanted = [asked[job] for job in missing]
-        made = compile_jobs(wanted, workers, finished, self._memory.findings)
-        known |= dict(zip(missing, made, strict=True))
-        return [known[job] for job in jobs]
+            known |= {found.job: found} if found is not None else {}
+            wanted.append(alone if found is None else found.job)
+        return compile_jobs(wanted, workers, self._memory, known, progress)
 
     def _with_module(self, job: Job) -> Job:
         if self._with_xml and job.options.target != "xosc":

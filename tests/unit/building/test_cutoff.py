@@ -52,9 +52,9 @@ def compiled(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     found: list[str] = []
     compile_jobs = module.compile_jobs
 
-    def watched(jobs, *args):  # type: ignore[no-untyped-def]
-        found.extend(job.name for job in jobs)
-        return compile_jobs(jobs, *args)
+    def watched(jobs, workers, memory, known, *args):  # type: ignore[no-untyped-def]
+        found.extend(job.name for job in jobs if job not in known)
+        return compile_jobs(jobs, workers, memory, known, *args)
 
     monkeypatch.setattr(module, "compile_jobs", watched)
     return found

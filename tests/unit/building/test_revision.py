@@ -222,9 +222,9 @@ def test_what_is_known_is_not_compiled_again(
     compiled: list[str] = []
     compile_jobs = module.compile_jobs
 
-    def watched(jobs, *args):  # type: ignore[no-untyped-def]
-        compiled.extend(job.name for job in jobs)
-        return compile_jobs(jobs, *args)
+    def watched(jobs, workers, memory=None, known=(), *args):  # type: ignore[no-untyped-def]
+        compiled.extend(job.name for job in jobs if job not in known)
+        return compile_jobs(jobs, workers, memory, known or None, *args)
 
     monkeypatch.setattr(module, "compile_jobs", watched)
     assert compared(project).differences == ()

@@ -65,9 +65,9 @@ def test_progress_is_told(project: Project) -> None:
 
     jobs = find_jobs([project.sources], GivenOptions(), ConfigFiles())
     for number in (1, 2):
-        told: list[FileResult] = []
-        workers.compile_jobs(jobs, number, told.append)
-        assert sorted(result.job.name for result in told) == [job.name for job in jobs]
+        told: list[tuple[int, int]] = []
+        workers.compile_jobs(jobs, number, progress=lambda *numbers: told.append(numbers))
+        assert told == [(done, len(jobs)) for done in range(1, len(jobs) + 1)]
 
 
 def test_spawned_processes_do_the_same(project: Project, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -265,8 +265,9 @@ import sys
 from osc2tx.building.results import compile_job
 from osc2tx.testing import compiled_sources
 
-def interrupted(jobs, workers, finished, findings):
-    finished(compile_job(jobs[0]))
+def interrupted(jobs, workers, memory, known, progress):
+    memory.keep(compile_job(jobs[0]))
+    progress(1, len(jobs))
     raise KeyboardInterrupt
 
 compiled_sources.compile_jobs = interrupted

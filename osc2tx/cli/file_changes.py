@@ -1,4 +1,4 @@
-"""Prints diffs, in color on a terminal."""
+"""Changes of files: printed as diffs, in color on a terminal, or written."""
 
 from __future__ import annotations
 
@@ -6,8 +6,11 @@ from pathlib import Path
 
 import click
 
-from osc2tx.cli.reporting import wants_color
-from osc2tx_shared.text import put, visible
+from osc2tx.building.write import replace_file
+from osc2tx.cli.reporting import Exit, wants_color
+from osc2tx.support.paths import real_path
+from osc2tx_shared.links import target_outside
+from osc2tx_shared.text import complain, put, visible
 
 _STYLES = {"+": "green", "-": "red", "@": "cyan"}
 
@@ -34,3 +37,17 @@ def read_text(path: Path) -> str | None:
         return None if path.is_symlink() else path.read_text(encoding="utf-8", errors="replace")
     except (FileNotFoundError, NotADirectoryError, IsADirectoryError):
         return None
+
+
+def write_source(path: Path, data: bytes) -> Exit:
+    """Replace a source file in one step; complain if it is not ours to write or cannot be."""
+    target = target_outside(path)
+    if target is not None:
+        complain(f"{path}: a link leads to {target}, out of the current folder; name that file")
+        return Exit.UNREADABLE
+    try:
+        replace_file(real_path(path), data)
+    except OSError as error:
+        complain(f"{path}: cannot be written: {error.strerror}")
+        return Exit.UNREADABLE
+    return Exit.OK
