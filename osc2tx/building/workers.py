@@ -1,8 +1,8 @@
 """Compiles or checks many files, in several processes if that is worth it.
 
-Results come in the order of the jobs. A process that dies, as by an overflow of its stack, costs
-the file that killed it and no other. What starts processes is imported only then:
-most commands compile one file.
+Results come in the order of the jobs; those that are known are not made again, and new ones are
+kept. A process that dies, as by an overflow of its stack, costs the file that killed it and no
+other. What starts processes is imported only then: most commands compile one file.
 """
 
 from __future__ import annotations

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import field
+from dataclasses import asdict, field
 from typing import TYPE_CHECKING, Any
 
 from osc2tx_runtime.report.page import render_project
@@ -79,18 +79,7 @@ def project_page(
     """
     return render_project(
         {
-            "scenarios": [
-                {
-                    "file": each.file,
-                    "name": each.name,
-                    "verdict": each.verdict,
-                    "expected": each.expected,
-                    "reason": each.reason,
-                    "values": dict(each.values),
-                    "page": each.page,
-                }
-                for each in scenarios
-            ],
+            "scenarios": list(map(asdict, scenarios)),
             "xml": xml.as_json(),
             "campaigns": [_campaign(results, page) for results, page in campaigns],
         }

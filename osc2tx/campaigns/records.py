@@ -3,32 +3,63 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from math import isfinite
 from types import NoneType
-from typing import Any
+from typing import Any, NamedTuple
 
 from osc2tx_runtime.campaigns import Row, RowResult
 
-SCHEMA = """
+_NUMBER = (int, float)
+_TEXT_OR_NONE = (str, NoneType)
+
+
+class Column(NamedTuple):
+    """A column of the table of rows.
+
+    Attributes:
+        kind: Its type in SQL.
+        types: Types of its values.
+        value: Returns the value of a result.
+        is_json: Whether it is stored as JSON.
+    """
+
+    kind: str
+    types: Any
+    value: Callable[[RowResult], Any]
+    is_json: bool = False
+
+
+RUN: Mapping[str, Column] = {
+    "number": Column("integer primary key", int, lambda found: found.row.number),
+    "seed": Column("integer not null", int, lambda found: found.row.seed),
+    "shares": Column(
+        "text",
+        (dict, NoneType),
+        lambda found: found.row.shares and dict(found.row.shares),
+        is_json=True,
+    ),
+    "given": Column("text not null", dict, lambda found: dict(found.row.set), is_json=True),
+    "parameters": Column("text not null", dict, lambda found: dict(found.values), is_json=True),
+    "status": Column("text not null", str, lambda found: found.status),
+    "reason": Column("text not null", str, lambda found: found.reason),
+    "source": Column("text", _TEXT_OR_NONE, lambda found: found.source),
+    "steps": Column("integer not null", int, lambda found: found.steps),
+    "time": Column("real not null", _NUMBER, lambda found: found.time),
+    "measures": Column("text not null", dict, lambda found: dict(found.measures), is_json=True),
+    "violations": Column("text not null", list, lambda found: found.violations, is_json=True),
+    "digest": Column("text", _TEXT_OR_NONE, lambda found: found.digest),
+    "seconds": Column("real not null", _NUMBER, lambda found: found.seconds),
+    "attempts": Column("integer not null", int, lambda found: found.attempts),
+}
+"""The outcome of a row, by column."""
+
+OF_THE_MACHINE = ("seconds", "attempts")
+"""Columns whose values depend on the machine and its load."""
+
+SCHEMA = f"""
 create table campaign (name text primary key, value text not null) without rowid;
-create table run (
-    number integer primary key,
-    seed integer not null,
-    shares text,
-    given text not null,
-    parameters text not null,
-    status text not null,
-    reason text not null,
-    source text,
-    steps integer not null,
-    time real not null,
-    measures text not null,
-    violations text not null,
-    digest text,
-    seconds real not null,
-    attempts integer not null
-);
+create table run ({", ".join(f"{name} {column.kind}" for name, column in RUN.items())});
 create table collision (
     number integer not null, nth integer not null,
     time real not null, one text not null, other text not null, speed real not null,
@@ -41,29 +72,6 @@ create table sample (
 ) without rowid;
 create table left_out (number integer primary key);
 """
-
-# Columns whose values depend on the machine and its load.
-OF_THE_MACHINE = ("seconds", "attempts")
-COLUMNS = (
-    *("number", "seed", "shares", "given", "parameters", "status", "reason", "source", "steps"),
-    *("time", "measures", "violations", "digest", "seconds", "attempts"),
-)
-
-_NUMBER = (int, float)
-_TEXT_OR_NONE = (str, NoneType)
-
-ROW_TYPES: Mapping[str, Any] = {
-    **{"number": int, "seed": int, "shares": (dict, NoneType), "given": dict, "parameters": dict},
-    **{"status": str, "reason": str, "source": _TEXT_OR_NONE, "steps": int, "time": _NUMBER},
-    **{
-        "violations": list,
-        "measures": dict,
-        "digest": _TEXT_OR_NONE,
-        "seconds": _NUMBER,
-        "attempts": int,
-    },
-}
-"""Types of the values of a row."""
 
 PLAN_TYPES: Mapping[str, Any] = {
     **{"files": dict, "module": str, "scenario": str, "options": dict, "map_path": list},
@@ -85,24 +93,11 @@ def row_of(run: Mapping[str, Any]) -> Row:
 
 def record(result: RowResult) -> Sequence[Any]:
     """Return the outcome of a row as a record of the table `run`."""
-    row = result.row
-    return (
-        row.number,
-        row.seed,
-        None if row.shares is None else json.dumps(dict(row.shares)),
-        json.dumps(dict(row.set)),
-        json.dumps(dict(result.values), default=str),
-        result.status,
-        result.reason,
-        result.source,
-        result.steps,
-        result.time,
-        json.dumps(dict(result.measures)),
-        json.dumps(result.violations),
-        result.digest,
-        result.seconds,
-        result.attempts,
-    )
+    found = {name: column.value(result) for name, column in RUN.items()}
+    return [
+        json.dumps(value, default=str) if RUN[name].is_json and value is not None else value
+        for name, value in found.items()
+    ]
 
 
 def decoded(values: Sequence[Any]) -> dict[str, Any]:
@@ -111,12 +106,13 @@ def decoded(values: Sequence[Any]) -> dict[str, Any]:
     Raises:
         ValueError: Nothing that osc2tx writes into a column.
     """
-    found = dict(zip(COLUMNS, values, strict=True))
-    for name in ("shares", "given", "parameters", "measures", "violations"):
-        found[name] = None if found[name] is None else json.loads(found[name])
+    found = {
+        name: json.loads(value) if column.is_json and value is not None else value
+        for (name, column), value in zip(RUN.items(), values, strict=True)
+    }
     if not all(map(_is_finite, found.values())):
         raise ValueError("a number is not finite")
-    require_types(found, ROW_TYPES)
+    require_types(found, {name: column.types for name, column in RUN.items()})
     require_types(found["measures"], dict.fromkeys(found["measures"], (*_NUMBER, NoneType)))
     if not all(isinstance(each, str) for each in found["violations"]):
         raise ValueError("`violations` are no texts")

@@ -18,10 +18,10 @@ from types import TracebackType
 from typing import Any
 
 from osc2tx.campaigns.records import (
-    COLUMNS,
     IDENTITY_TYPES,
     OF_THE_MACHINE,
     PLAN_TYPES,
+    RUN,
     SCHEMA,
     decoded,
     record,
@@ -269,7 +269,7 @@ class Store:
     def add(self, results: Iterable[RowResult], left_out: Iterable[int] = ()) -> None:
         """Store the outcomes of rows, in one transaction."""
         results = list(results)
-        marks = ", ".join("?" * len(COLUMNS))
+        marks = ", ".join("?" * len(RUN))
         collisions = [
             (each.row.number, nth, *contact)
             for each in results
@@ -310,7 +310,7 @@ class Store:
 
     def runs(self) -> Iterator[dict[str, Any]]:
         """Yield all rows by number: columns of the table, JSON decoded."""
-        for values in self._base.rows(f"select {', '.join(COLUMNS)} from run order by number"):
+        for values in self._base.rows(f"select {', '.join(RUN)} from run order by number"):
             yield self._decoded(values)
 
     def _decoded(self, values: Sequence[Any]) -> dict[str, Any]:
@@ -323,16 +323,12 @@ class Store:
         Raises:
             CampaignError: It was not run.
         """
-        query = f"select {', '.join(COLUMNS)} from run where number = ?"
+        query = f"select {', '.join(RUN)} from run where number = ?"
         found = list(self._base.rows(query, (number,)))
         if not found:
             why = "violates a constraint and was omitted" if number in self.left_out() else ""
             raise CampaignError(f"{self.path}: row {number} {why or 'was not run'}")
         return self._decoded(found[0])
-
-    def collisions(self) -> Iterator[tuple[Any, ...]]:
-        """Yield the contacts of all rows: number, nth, time (s), both actors, speed (m/s)."""
-        yield from self._base.rows("select * from collision order by number, nth")
 
     def samples(self) -> Iterator[tuple[int, str, dict[str, Any]]]:
         """Yield the samples of coverage items: row, `cover` or `record`, line of the trace."""
@@ -346,7 +342,7 @@ class Store:
 
     def digest(self) -> str:
         """Return the SHA-256 of all results that do not depend on the machine."""
-        kept = [name for name in COLUMNS if name not in OF_THE_MACHINE]
+        kept = [name for name in RUN if name not in OF_THE_MACHINE]
         digest = hashlib.sha256()
         for query in (
             f"select {', '.join(kept)} from run order by number",

@@ -24,11 +24,27 @@ from osc2tx_runtime import ScenarioError
 from osc2tx_runtime.running.main import verdict
 from osc2tx_shared.text import complain, say
 
+
+class StoreCommand(click.Command):
+    """A command on the store of a campaign; reports why it cannot be used."""
+
+    def invoke(self, ctx: click.Context) -> Exit:
+        """Carry out the command."""
+        try:
+            return Exit(super().invoke(ctx))
+        except CampaignError as error:
+            raise click.UsageError(str(error), ctx) from None
+        except ScenarioError as error:
+            named = ctx.params.get("store") or ctx.params["stores"][0]
+            complain(f"{error.source or named}: error: {error.message}")
+            return Exit(error.exit_code)
+
+
 STORE = click.Path(dir_okay=False, path_type=Path)
 FILE = click.Path(dir_okay=False, path_type=Path)
 
 
-@click.command()
+@click.command(cls=StoreCommand)
 @click.argument("store", metavar="STORE", type=STORE)
 @click.argument("row", metavar="ROW", type=click.IntRange(min=0))
 @click.option("--trace", metavar="FILE", type=FILE, help="Write the trace (JSON Lines).")
@@ -55,22 +71,16 @@ def replay(
     osc2tx or on another map, that is an error. The Python module of the store is run: replay only
     stores of people whose code you would run.
     """
-    try:
-        with Store(store) as opened:
-            _state_origin(opened)
-            name, result = replay_row(opened, row, trace, report, map_path)
-    except CampaignError as error:
-        raise click.UsageError(str(error)) from None
-    except ScenarioError as error:
-        complain(f"{error.source or store}: error: {error.message}")
-        return Exit(error.exit_code)
+    with Store(store) as opened:
+        _state_origin(opened)
+        name, result = replay_row(opened, row, trace, report, map_path)
     succeeded = result.status == "success"
     for line in () if quiet and succeeded else verdict(f"{name}, row {row}", result):
         say(line)
     return Exit.OK if succeeded else Exit.FAILED
 
 
-@click.command()
+@click.command(cls=StoreCommand)
 @click.argument("stores", metavar="STORE...", type=STORE, nargs=-1, required=True)
 @click.option(
     "-o",
@@ -107,25 +117,19 @@ def report(
     """
     if against is not None and len(stores) > 1:
         raise click.UsageError("--against compares one campaign with an earlier one")
-    try:
-        campaigns = [_read(store) for store in stores]
-        before = None if against is None else _read(against)
-        pages = [store.with_suffix(".html") for store in stores]
-        if len(stores) == 1:
-            pages = [page or pages[0]]
-        for results, place in zip(campaigns, pages, strict=True):
-            write_text("report", place, render_report(results, before))
-        if len(stores) > 1:
-            _write_overview(page or Path("campaigns.html"), campaigns, pages)
-        if summary is not None:
-            write_text("summary", summary, json.dumps(_summary(campaigns), indent=1) + "\n")
-        if junit is not None:
-            write_text("junit", junit, render_junit(campaigns))
-    except CampaignError as error:
-        raise click.UsageError(str(error)) from None
-    except ScenarioError as error:
-        complain(f"{error.source or stores[0]}: error: {error.message}")
-        return Exit(error.exit_code)
+    campaigns = [_read(store) for store in stores]
+    before = None if against is None else _read(against)
+    pages = [store.with_suffix(".html") for store in stores]
+    if len(stores) == 1:
+        pages = [page or pages[0]]
+    for results, place in zip(campaigns, pages, strict=True):
+        write_text("report", place, render_report(results, before))
+    if len(stores) > 1:
+        _write_overview(page or Path("campaigns.html"), campaigns, pages)
+    if summary is not None:
+        write_text("summary", summary, json.dumps(_summary(campaigns), indent=1) + "\n")
+    if junit is not None:
+        write_text("junit", junit, render_junit(campaigns))
     for results, place in zip(campaigns, pages, strict=True):
         for line in () if quiet else _verdict(results, place):
             say(line)
@@ -175,7 +179,7 @@ def _verdict(results: Results, place: Path) -> Iterator[str]:
     )
 
 
-@click.command()
+@click.command(cls=StoreCommand)
 @click.argument("store", metavar="STORE", type=STORE)
 @click.argument("file", metavar="FILE", type=FILE)
 @quiet_option
@@ -186,11 +190,8 @@ def export(store: Path, file: Path, quiet: bool) -> Exit:
     `kpi NAME`, all in SI units, the number of conditions that did not hold, and the digest of the
     trace if there is one. Numbers have all their digits.
     """
-    try:
-        with Store(store) as opened:
-            rows = export_rows(opened, file)
-    except CampaignError as error:
-        raise click.UsageError(str(error)) from None
+    with Store(store) as opened:
+        rows = export_rows(opened, file)
     if not quiet:
         say(f"{file}: {rows} rows")
     return Exit.OK

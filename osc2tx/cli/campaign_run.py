@@ -213,7 +213,7 @@ def _run(
     plan: Plan, texts: Texts, wanted: Wanted, place: Path, engine: Engine, reporter: Reporter
 ) -> Exit:
     with Store(place, is_new=True) as store:
-        wanted = _with_samples(wanted, store)
+        wanted = replace(wanted, samples=wanted.samples or store.wanted)
         try:
             with progress_bar(plan.scenario) as show:
                 ended = run_campaign(plan, texts, wanted, store, engine, show)
@@ -227,11 +227,6 @@ def _run(
         for line in summary(plan.scenario, store, ended, wanted.aim):
             reporter.say(line)
         return Exit.FAILED if ended.failed else Exit.OK
-
-
-def _with_samples(wanted: Wanted, store: Store) -> Wanted:
-    """Take the number of rows from the store where the command line has none, and note it."""
-    return replace(wanted, samples=wanted.samples or store.wanted)
 
 
 def summary(name: str, store: Store, ended: Progress, aim: Aim | None) -> Iterator[str]:

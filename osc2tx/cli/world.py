@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
+from dataclasses import asdict
 from pathlib import Path
 
 import click
@@ -91,7 +92,7 @@ def check(
         complain(error.report(file or name))
         return Exit(error.exit_code)
     if reporter.form == "json":
-        put_document(json.dumps([_row(each) for each in results], indent=2) + "\n")
+        put_document(json.dumps([asdict(each) for each in results], indent=2) + "\n")
     else:
         before = ""
         for each in results:
@@ -126,15 +127,3 @@ def _checked(
     with scenarios_of_module(compilation.module, sibling_modules(compilation)) as scenarios:
         chosen = choose_scenario(scenarios, wanted, path)
         yield from check_world(chosen, settings, drives=drive, fixes=fix)
-
-
-def _row(result: CheckResult) -> dict[str, object]:
-    """Return a line for programs."""
-    return {
-        "number": result.number,
-        "name": result.name,
-        "status": result.status,
-        "found": result.found,
-        "meaning": result.meaning,
-        "blocks": result.blocks,
-    }

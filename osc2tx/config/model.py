@@ -201,19 +201,18 @@ class Config:
 
     def run_settings(self, source: Path) -> Mapping[str, tuple[str, ...]]:
         """Return the run options of a file."""
-        found: dict[str, tuple[str, ...]] = {}
-        for _, table in self.tables_for(source):
-            found = {**table.run, **found}
+        found = self._merged("run", source)
         if self.map_paths:
             found["map-path"] = (*found.get("map-path", ()), *self.map_paths)
         return found
 
     def campaign_settings(self, source: Path) -> Mapping[str, tuple[str, ...]]:
         """Return the options of the campaign of a file."""
-        found: dict[str, tuple[str, ...]] = {}
-        for _, table in self.tables_for(source):
-            found = {**table.campaign, **found}
-        return found
+        return self._merged("campaign", source)
+
+    def _merged(self, part: str, source: Path) -> dict[str, tuple[str, ...]]:
+        tables = (getattr(table, part) for _, table in reversed(self.tables_for(source)))
+        return {key: texts for table in tables for key, texts in table.items()}
 
     def codes(self, setting: str, source: Path) -> frozenset[str]:
         """Return the codes of warnings that a setting (`ignore`, `errors`) names for a file.

@@ -48,6 +48,12 @@ class Diagnostic:
     help: str | None = None
     fixes: tuple[Fix, ...] = ()
 
+    @property
+    def lines(self) -> list[str]:
+        """The message, the notes and the help, for programs that show a text."""
+        notes = [f"note: {note}" for note in self.notes]
+        return [self.message, *notes, *([] if self.help is None else [f"help: {self.help}"])]
+
 
 class InternalCompilerError(Exception):
     """A bug of osc2tx itself, never a mistake in the source."""

@@ -30,16 +30,13 @@ def _is_shown(document: Document, found: Diagnostic) -> bool:
 
 
 def _problem(document: Document, found: Diagnostic) -> lsp.Diagnostic:
-    lines = [found.message, *(f"note: {note}" for note in found.notes)]
-    if found.help is not None:
-        lines.append(f"help: {found.help}")
     span = found.primary or Span(document.source, 0, 0)
     return lsp.Diagnostic(
         range=range_of(span),
         severity=_SEVERITIES[found.severity],
         code=found.code,
         source="osc2tx",
-        message="\n".join(lines),
+        message="\n".join(found.lines),
         tags=(
             [lsp.DiagnosticTag.Unnecessary] if CODES[found.code].slug.startswith("unused") else None
         ),

@@ -20,7 +20,7 @@ from typing import Any, NamedTuple
 import carla
 
 from osc2tx_runtime.opendrive import read_map
-from osc2tx_runtime.report.page import write_report
+from osc2tx_runtime.report.page import render_report
 from osc2tx_runtime.simulators.carla.frames import measurement_from
 from osc2tx_shared.text import say
 
@@ -90,7 +90,8 @@ def draw(picture: Picture) -> Path:
         seen = watch(watched.get_world(), process)
     header, *_, verdict = trace.read_text(encoding="utf-8").splitlines()
     states = lines_of(json.loads(header), seen, json.loads(verdict)["steps"])
-    write_report(page, [header, *states, verdict], read_map(OWN_MAPS / "highway.xodr"))
+    text = render_report([header, *states, verdict], read_map(OWN_MAPS / "highway.xodr"))
+    page.write_text(text, encoding="utf-8", newline="\n")
     return page
 
 

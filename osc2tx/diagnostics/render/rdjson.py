@@ -45,12 +45,9 @@ def render_rdjson(report: Report, *, docs_url: str | None = None) -> str:
 def _diagnostic(
     diagnostic: Diagnostic, folder: Path | None, docs_url: str | None
 ) -> dict[str, Any]:
-    lines = [diagnostic.message, *(f"note: {note}" for note in diagnostic.notes)]
-    if diagnostic.help is not None:
-        lines.append(f"help: {diagnostic.help}")
     page = {} if docs_url is None else {"url": page_of(diagnostic.code, docs_url)}
     result: dict[str, Any] = {
-        "message": "\n".join(lines),
+        "message": "\n".join(diagnostic.lines),
         "severity": diagnostic.severity.name,
         "code": {"value": diagnostic.code, **page},
     }

@@ -143,14 +143,11 @@ def _markdown_help(entry: Code) -> str:
 
 
 def _result(diagnostic: Diagnostic, index: int, folder: Path | None) -> dict[str, Any]:
-    lines = [diagnostic.message, *(f"note: {note}" for note in diagnostic.notes)]
-    if diagnostic.help is not None:
-        lines.append(f"help: {diagnostic.help}")
     result: dict[str, Any] = {
         "ruleId": diagnostic.code,
         "ruleIndex": index,
         "level": diagnostic.severity.value,
-        "message": {"text": "\n".join(map(_escape, lines))},
+        "message": {"text": "\n".join(map(_escape, diagnostic.lines))},
     }
     if diagnostic.primary is not None:
         result["locations"] = [{"physicalLocation": _location(diagnostic.primary, folder)}]

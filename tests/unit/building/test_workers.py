@@ -64,8 +64,9 @@ def test_progress_is_told(project: Project) -> None:
     from osc2tx.config import ConfigFiles, GivenOptions
 
     jobs = find_jobs([project.sources], GivenOptions(), ConfigFiles())
+    told: list[tuple[int, int]] = []
     for number in (1, 2):
-        told: list[tuple[int, int]] = []
+        told.clear()
         workers.compile_jobs(jobs, number, progress=lambda *numbers: told.append(numbers))
         assert told == [(done, len(jobs)) for done in range(1, len(jobs) + 1)]
 

@@ -8,8 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from osc2tx.building import fingerprint, result_cache
-from osc2tx.building import result_cache as checks
+from osc2tx.building import fingerprint, result_cache, workers
 from osc2tx.building.jobs import Job
 from osc2tx.building.results import FileResult, check_job
 from osc2tx.compilation.driver import Compilation
@@ -50,7 +49,8 @@ def checked(monkeypatch: pytest.MonkeyPatch) -> list[str]:
         names.append(job.name)
         return check_job(job)
 
-    monkeypatch.setattr(checks, "check_job", check)
+    for module in (result_cache, workers):
+        monkeypatch.setattr(module, "check_job", check)
     return names
 
 
