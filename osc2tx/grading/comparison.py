@@ -35,6 +35,7 @@ class Recording:
         choices: The chosen members, by the names of the choices.
         ends: When actors came to the end of their roads in a player (s).
         forks: When the tool of the player may have taken another road with an actor (s).
+        fails: The scenario has failed, or a monitor of the document says so.
     """
 
     end: float
@@ -43,6 +44,7 @@ class Recording:
     choices: Mapping[str, str] = field(default_factory=dict)
     ends: Mapping[str, float] = field(default_factory=dict)
     forks: Mapping[str, float] = field(default_factory=dict)
+    fails: bool = False
 
 
 @dataclass(frozen=True)
@@ -136,6 +138,8 @@ def compare(
     end = 0.0 if math.isinf(expected.end) else abs(ended - expected.end)
     if end > patience + chain + ROUNDING:
         problems.append(f"it ends at {found.end:g} s instead of {expected.end:g} s")
+    if found.fails and not expected.fails:
+        problems.append(f"it fails at {found.end:g} s, which the scenario does not")
     for source, names in events_by_source(document, origins).items():
         if source not in expected.starts:
             continue

@@ -14,7 +14,9 @@ from osc2tx.backends.xosc import XmlScenario
 from osc2tx.backends.xosc.facts.start_places import read_signal, read_spawn
 from osc2tx.grading.comparison import EXACT, Deviation, compare
 from osc2tx.grading.runs import (
+    Failed,
     NoEvidence,
+    WorldRun,
     cached_map,
     declared_values,
     reading_of,
@@ -146,7 +148,11 @@ class Measuring:
         settings = replace(self._settings, dt=dt, max_time=longest)
         declared = declared_values(self._root, values)
         chosen = values_for(self._scenario, settings, declared)
-        world = run_in_world(self._scenario, replace(settings, set=chosen))
+        failure: Failed | None = None
+        try:
+            world = run_in_world(self._scenario, replace(settings, set=chosen))
+        except Failed as error:
+            failure, world = error, WorldRun(error.recording, is_whole=True)
         choices = {
             name: branch for name, branch in world.recording.choices.items() if name in declared
         }
@@ -159,6 +165,8 @@ class Measuring:
             given={**values, **choices},
             most=time_for(world, longest),
         )
+        if failure is not None and not found.fails:
+            raise failure
         patience = self._stated / PACE if self._is_bounded else inf
         deviation = compare(self._root, self._found.origins, world.recording, found, dt, patience)
         allowed = EXACT + self._stated

@@ -112,7 +112,7 @@ def run_in_world(scenario: type[Scenario], settings: RunSettings) -> WorldRun:
             case "choice":
                 choices[line["name"]] = line["chosen"]
     if result.status == "failure":
-        recording = Recording(result.time, starts, track, choices)
+        recording = Recording(result.time, starts, track, choices, fails=True)
         raise Failed(f"the run in the world fails: {result.reason}", recording)
     is_whole = result.status == "success"
     end = result.time if is_whole else math.inf
@@ -216,7 +216,9 @@ def run_in_player(
         end = evaluator.play(most)
     except (Unplayable, Unresolved, ArithmeticError) as error:
         raise NoEvidence(f"it cannot be played here: {error}") from error
-    return Recording(end, evaluator.starts, evaluator.track, {}, evaluator.ends, evaluator.forks)
+    starts, track = evaluator.starts, evaluator.track
+    fails = not all(evaluator.globals.monitors.values())
+    return Recording(end, starts, track, {}, evaluator.ends, evaluator.forks, fails)
 
 
 def time_for(world: WorldRun, longest: float) -> float:

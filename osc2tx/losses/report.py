@@ -117,11 +117,11 @@ class LossReport:
                         same[i] = replace(each, bound=bound, is_open=False)
 
     def _add(self, entry: Entry) -> None:
-        """Add an entry; what is not exact stands instead of what is."""
+        """Add an entry; what is not exact stands instead of what is, a remark instead of none."""
         same = self._entries.setdefault(entry.span, {}).setdefault(entry.construct, [])
         if entry.grade is Grade.EXACT:
-            if not same:
-                same.append(entry)
+            if not any(each.reason or each.grade is not Grade.EXACT for each in same):
+                same[:] = [entry]
             return
         same[:] = [e for e in same if e.grade is not Grade.EXACT and e.reason != entry.reason]
         same.append(entry)

@@ -22,6 +22,7 @@ class GlobalState:
     Attributes:
         variables: Texts of variables and parameters, by name.
         lights: States of traffic lights, by id.
+        monitors: Values of monitors, by name.
     """
 
     def __init__(self, document: Element, changed: Callable[[str], None]) -> None:
@@ -29,6 +30,8 @@ class GlobalState:
         parameters = document.below(xml.ParameterDeclaration)
         self.variables |= {each.name: each.value for each in parameters}
         self.lights: dict[str, str] = {}
+        declared = document.below(xml.MonitorDeclaration)
+        self.monitors = {each.name: bool(each.value) for each in declared}
         self._cycles = {
             node.name: (_phases(node), 0, node.delay or 0.0)
             for node in document.below(xml.TrafficSignalController)
@@ -51,8 +54,11 @@ class GlobalState:
                     names = [phase.name for phase in phases]
                     self._cycles[name] = (phases, names.index(signal.said("phase")), time)
                     self.advance(time)
-            case "EnvironmentAction" | "SetMonitorAction":
-                pass  # weather and monitors have no effect here
+            case "SetMonitorAction":
+                set_ = action.one(xml.SetMonitorAction)
+                self.monitors[set_.monitorRef] = bool(set_.value)
+            case "EnvironmentAction":
+                pass  # weather has no effect here
             case _:
                 raise Unplayable(f"<{inner.tag}> is not played", inner.place)
 

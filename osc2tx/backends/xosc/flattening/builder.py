@@ -222,17 +222,22 @@ class StoryboardBuilder:
                 return flow & tests
 
     def limit(self, node: ir.Composition | ir.Invoke | ir.InvokeScenario, start: Flow) -> Flow:
-        """Return when a member that starts with a flow is over at the latest; as `until`."""
+        """Return when a member that starts with a flow is over at the latest."""
         lasting = self.length_of(node)
         ends = NEVER if lasting is None else start.later(lasting)
-        return ends | self.until(node, start)
+        return ends | self.until(node, start) | self.overridden(node, start)
 
     def until(self, node: ir.Composition | ir.Invoke | ir.InvokeScenario, start: Flow) -> Flow:
-        """Return when one of the `until` of a member occurs, or one that overrides it starts."""
+        """Return when one of the `until` of a member occurs."""
         ends = NEVER
         for trigger in node.until:
             ends = ends | self.after(trigger, start)
             self.ctx.report.exact("until", trigger.span)
+        return ends
+
+    def overridden(self, node: ir.Behavior, start: Flow) -> Flow:
+        """Return when a member starts that overrides this one, which starts with a flow."""
+        ends = NEVER
         for label in self.overriding(node):
             is_first = start == RUN_START  # else the other one may have started before
             ends = ends | start & self.events.of_label(label, ir.Moment.START, is_early=is_first)

@@ -11,20 +11,19 @@ In `parallel(duration: 8s)` the members that never end by themselves end after 8
 from __future__ import annotations
 
 from math import inf
-from typing import Literal, TypeAlias
+from typing import TypeAlias
 
 from osc2tx import ir
 from osc2tx.backends.xosc.conditions.flow import NEVER, Flow
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.flattening.builder import VERDICT, StoryboardBuilder, construct_of
-from osc2tx.backends.xosc.flattening.lengths import least_length, length_of
+from osc2tx.backends.xosc.flattening.failures import Role, fail_scenario
+from osc2tx.backends.xosc.flattening.lengths import least_length, length_at_least, length_of
+from osc2tx.backends.xosc.flattening.until_ends import end_at_until, end_within
 from osc2tx.losses.entries import Inexpressible, Remedy
 from osc2tx_shared.classes import replace
 
 Timed: TypeAlias = ir.Composition | ir.InvokeScenario
-
-Role: TypeAlias = Literal["alone", "racer", "in a race"]
-"""Whether a member that fails takes the scenario with it, leaves a race, or others of a race."""
 
 
 def end_within_duration(
@@ -34,9 +33,16 @@ def end_within_duration(
 
     Of a racer the act is the present one.
     """
-    until = builder.until(node, start)
+    length = None  # of the content, if it is known
+    if not isinstance(node, ir.InvokeScenario):
+        length = length_of(builder.ctx, replace(node, duration=None, until=()))
     if node.duration is None:
-        return content | until
+        least = length_at_least(builder.ctx, replace(node, until=()))
+        most = inf if length is None else length
+        return end_at_until(builder, node, start, content, (least, most), role)
+    if node.until and builder.ctx.module.dialect != "carla":
+        return end_within(builder, node, start, content, role)
+    until = builder.until(node, start) | builder.overridden(node, start)
     low, high = builder.ctx.values.bounds(node.duration)
     builder.ctx.report.exact("duration", node.duration.span)
     since = content.open_since
@@ -52,9 +58,6 @@ def end_within_duration(
     if isinstance(node, ir.OneOf):
         reason = "the member that ends within the duration wins, which only the run shows"
         raise Inexpressible(reason, node.duration.span)
-    length = None  # of the content, if it is known
-    if not isinstance(node, ir.InvokeScenario):
-        length = length_of(builder.ctx, replace(node, duration=None, until=()))
     # A member without end fills what the others leave of a duration.
     fills = since is not None or (
         isinstance(node, ir.Parallel)
@@ -103,13 +106,12 @@ def _failing(
         reason = "what takes another time fails, and others of the race go on; the XML ends it"
         ctx.report.approximate(construct, span, reason, bound)
         return in_time | failed
-    if not ctx.can("SetMonitorAction", "1.3"):
+    if fail_scenario(builder, name, failed):
+        note = f"if it takes another time, the monitor `{VERDICT}` says so"
+        ctx.report.exact(construct, span, note)
+    else:
         reason = "what takes another time fails; here the run just ends, for it has no verdict"
         ctx.report.approximate(construct, span, reason, bound, Remedy(version="1.3"))
-        builder.finished = builder.finished | failed
-        return in_time
-    builder.finished = builder.finished | builder.tell_failure(name, failed)
-    ctx.report.exact(construct, span, f"if it takes another time, the monitor `{VERDICT}` says so")
     return in_time
 
 

@@ -16,7 +16,8 @@ from osc2tx.backends.xosc.conditions.flow import NEVER, Flow, all_of, any_of, ar
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.flattening.builder import RUN_START, StoryboardBuilder, construct_of
 from osc2tx.backends.xosc.flattening.directives import call, emit, finish, react
-from osc2tx.backends.xosc.flattening.durations import Role, end_within_duration
+from osc2tx.backends.xosc.flattening.durations import end_within_duration
+from osc2tx.backends.xosc.flattening.failures import Role
 from osc2tx.backends.xosc.flattening.leaves import end_open_actions, invoke
 from osc2tx.backends.xosc.flattening.parallel_overlaps import (
     report_conflicts,
@@ -43,7 +44,8 @@ class Flattener:
         """Take the scenario; the states of its actors are those after the placement."""
         self._ctx = ctx
         self._builder = StoryboardBuilder(ctx)
-        self._entrants: set[Span] = set()  # members of races that have an act of their own
+        self._racers: set[Span] = set()  # members of races
+        self._entrants: set[Span] = set()  # those that have an act of their own
         self._is_racing = False  # the present place is inside a member of a race
 
     @property
@@ -84,7 +86,7 @@ class Flattener:
             case ir.InvokeScenario():
                 return self._bounded(node, start, lambda at: self._scenario(node, at))
             case ir.Invoke():
-                return invoke(self._builder, node, start)
+                return invoke(self._builder, node, start, self._role(node))
             case ir.Wait():
                 begin = self._builder.latched(start, self._builder.name_of(node))
                 end = self._builder.after(node.trigger, begin)
@@ -190,6 +192,8 @@ class Flattener:
         acts: list[Act] = []
         ends: dict[str, Flow] = {}
         for member, is_leaf in zip(self._courses(node), single, strict=True):
+            if is_race:
+                self._racers.add(member.span)
             if not is_leaf:
                 if is_race:
                     self._entrants.add(member.span)
@@ -245,6 +249,11 @@ class Flattener:
         builder.is_race, self._is_racing = outer
         return end
 
+    def _role(self, node: ir.Behavior) -> Role:
+        if node.span in self._racers:
+            return "racer"
+        return "in a race" if self._is_racing else "alone"
+
     def _scenario(self, node: ir.InvokeScenario, start: Flow) -> Flow:
         """Write down an invoked scenario in place."""
         inner = self._ctx.scope.of(node)
@@ -265,7 +274,7 @@ class Flattener:
             return builder.mark_end(
                 node, end_within_duration(builder, node, start, body(start), "racer")
             )
-        role: Role = "in a race" if self._is_racing else "alone"
+        role = self._role(node)
         needs_no_stop = not self._ctx.profile.has_act_stop and ir.starts_at_once(node)
         if ir.is_single(node) or needs_no_stop:
             outer, builder.is_race = builder.is_race, True

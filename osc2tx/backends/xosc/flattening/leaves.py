@@ -11,11 +11,13 @@ from osc2tx.backends.xosc.actions.position.walkers import walk_on
 from osc2tx.backends.xosc.actions.registry import ACTIONS, GLOBAL_ACTIONS, WITHOUT_FORM
 from osc2tx.backends.xosc.actions.speed.courses import ends_evenly, hold_speed, in_steps
 from osc2tx.backends.xosc.actions.user_actions import user_action
-from osc2tx.backends.xosc.conditions.flow import Flow, Test
+from osc2tx.backends.xosc.conditions.flow import NEVER, Flow, Test
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.flattening.builder import RUN_START, StoryboardBuilder
 from osc2tx.backends.xosc.flattening.directives import invoke_global
 from osc2tx.backends.xosc.flattening.durations import time_frame
+from osc2tx.backends.xosc.flattening.failures import Role
+from osc2tx.backends.xosc.flattening.until_ends import end_at_until, end_within
 from osc2tx.backends.xosc.names import event_name
 from osc2tx.backends.xosc.state import LATERAL, LONGITUDINAL, WAY, ActorState
 from osc2tx.losses.entries import Inexpressible, Remedy
@@ -23,7 +25,7 @@ from osc2tx.xosc import elements as xml
 from osc2tx_shared.classes import replace
 
 
-def invoke(builder: StoryboardBuilder, node: ir.Invoke, start: Flow) -> Flow:
+def invoke(builder: StoryboardBuilder, node: ir.Invoke, start: Flow, role: Role) -> Flow:
     """Write down an invocation that starts with a flow; return when it ends."""
     is_known = ir.entry_of(node) is not None
     if node.actor is None or (is_known and node.action in GLOBAL_ACTIONS):
@@ -78,7 +80,7 @@ def invoke(builder: StoryboardBuilder, node: ir.Invoke, start: Flow) -> Flow:
             state = replace(ctx.states[other.name], speed=None).finished(LONGITUDINAL)
             ctx.states[other.name] = state
             ctx.note_move(other.name, node, state, state)
-    ends = _ends(builder, node, start, goal, performance)
+    ends = _ends(builder, node, start, goal, performance, role)
     successors = builder.claimed_by(overriding)
     # Along a path its place is that of the path, whatever else changes.
     for change in sorted(performance.changes, key=lambda each: each.domain == LATERAL):
@@ -122,20 +124,41 @@ def _set_out(ctx: Context, name: str, actions: tuple[xml.ActionPart, ...]) -> No
 
 
 def _ends(
-    builder: StoryboardBuilder, node: ir.Invoke, start: Flow, goal: Flow, performance: Performance
+    builder: StoryboardBuilder,
+    node: ir.Invoke,
+    start: Flow,
+    goal: Flow,
+    performance: Performance,
+    role: Role,
 ) -> Flow:
     """Return when an action is over: at its goal, or when others end it."""
     is_strict = builder.ctx.module.dialect != "carla"
     if is_strict and ir.lasts_until_event(builder.ctx.scope.scenario.body, node):
-        return builder.until(node, start)
-    if performance.reached:
-        at_place = Flow((tuple(map(Test, performance.reached)),))
-        return goal & at_place | builder.until(node, start)
-    if performance.lasts is not None:
-        return start.later(performance.lasts) | builder.until(node, start)
-    if performance.ends == "open":
+        return builder.until(node, start) | builder.overridden(node, start)
+    is_endless = performance.ends == "open" and performance.lasts is None
+    if is_strict and node.until and node.duration is not None:
+        content = NEVER if is_endless and not performance.reached else goal
+        return end_within(builder, node, start, content, role)
+    if is_endless and not performance.reached:
         return builder.limit(node, start)
-    return goal | builder.until(node, start)
+    length = _length(builder, performance)
+    if performance.reached:
+        goal = goal & Flow((tuple(map(Test, performance.reached)),))
+    elif performance.lasts is not None:
+        goal = start.later(performance.lasts)
+    return end_at_until(builder, node, start, goal, length, role)
+
+
+def _length(builder: StoryboardBuilder, performance: Performance) -> tuple[float, float]:
+    """Return how long (s) an action takes at least and at most that nothing cuts short."""
+    if performance.reached or builder.ctx.choosing.parameters:
+        return 0.0, inf
+    if performance.lasts is not None:
+        return performance.lasts, performance.lasts
+    times = [change.time for change in performance.changes if change.actions]
+    known = [time for time in times if time is not None]
+    least = max(known, default=0.0)
+    return least, least if len(known) == len(times) else inf
 
 
 def _event_length(performance: Performance) -> float:

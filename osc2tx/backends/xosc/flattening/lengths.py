@@ -50,6 +50,22 @@ def least_length(ctx: Context, node: ir.Behavior) -> float | None:
     return 0.0
 
 
+def length_at_least(ctx: Context, node: ir.Behavior) -> float:
+    """Return how long (s) a member surely takes."""
+    length = length_of(ctx, node)
+    if length is not None:
+        return length
+    match node:
+        case ir.Serial(members=members, until=()):
+            return sum(length_at_least(ctx, member) for member in members)
+        case ir.Parallel(members=members, until=()):
+            timed = [member for member in members if not ir.is_open(member)]
+            return max((length_at_least(ctx, member) for member in timed), default=0.0)
+        case ir.OneOf(members=members, until=()):
+            return min(length_at_least(ctx, member) for member in members)
+    return 0.0
+
+
 def begin_of(ctx: Context, node: ir.Behavior) -> float | None:
     """Return when (s) a member of the scenario begins; `None` if only the run shows it."""
     begin = 0.0
