@@ -23,6 +23,7 @@ from osc2tx.grading.runs import (
     run_in_player,
     run_in_world,
     time_for,
+    values_drawn,
     values_for,
 )
 from osc2tx.grading.values import Values, corners
@@ -153,16 +154,14 @@ class Measuring:
             world = run_in_world(self._scenario, replace(settings, set=chosen))
         except Failed as error:
             failure, world = error, WorldRun(error.recording, is_whole=True)
-        choices = {
-            name: branch for name, branch in world.recording.choices.items() if name in declared
-        }
-        self._chooses = bool(chosen or choices)
+        drawn = values_drawn(self._scenario, settings, world.recording, self._found.choices)
+        self._chooses = bool(chosen or drawn)
         found = run_in_player(
             self._root,
             self._map(),
             dt,
             reading=reading_of(self._tool),
-            given={**values, **choices},
+            given={**values, **drawn},
             most=time_for(world, longest),
         )
         if failure is not None and not found.fails:

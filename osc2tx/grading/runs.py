@@ -5,10 +5,11 @@ from __future__ import annotations
 import json
 import math
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from functools import lru_cache
 from pathlib import Path
 
+from osc2tx.backends.xosc import Choice
 from osc2tx.grading.comparison import Recording, Row
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.element import Element, Unresolved
@@ -17,6 +18,7 @@ from osc2tx.xosc.profiles import ToolProfile
 from osc2tx_runtime import RunSettings, Scenario, ScenarioError, run_scenario
 from osc2tx_runtime.domain.placing.entries import ENTER
 from osc2tx_runtime.language.trace import DECIMALS
+from osc2tx_runtime.language.tree import OneOf
 from osc2tx_runtime.opendrive import RoadMap, read_map
 from osc2tx_runtime.world.state import ActorState
 from osc2tx_shared.classes import dataclass, replace
@@ -167,6 +169,34 @@ def _made(scenario: type[Scenario], settings: RunSettings) -> Scenario:
     made = scenario(settings)
     made.create_tree()
     return made
+
+
+def values_drawn(
+    scenario: type[Scenario], settings: RunSettings, run: Recording, choices: Sequence[Choice]
+) -> dict[str, str]:
+    """Return the values of parameters that choose the members which a run has drawn.
+
+    Args:
+        scenario: The scenario.
+        settings: Those of the run.
+        run: The run.
+        choices: The parameters of the document.
+    """
+    if not choices or not run.choices:
+        return {}
+    found: dict[str, str] = {}
+    left = list(choices)
+    for node in scenario(settings).create_tree().iterate():
+        if not isinstance(node, OneOf):
+            continue
+        choice = next((each for each in left if each.source == node.source), None)
+        if choice is None:
+            continue
+        left.remove(choice)
+        names = [member.name for member in node.children]
+        if run.choices.get(node.name) in names:
+            found[choice.name] = choice.values[names.index(run.choices[node.name])]
+    return found
 
 
 def reading_of(tool: ToolProfile, *, is_lazy: bool = False) -> Reading:

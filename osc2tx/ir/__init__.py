@@ -6,6 +6,7 @@ reading order: `values`, `expressions`, `behaviors`, `declarations`, `user_types
 (the invariants) and `dump` (the printable form).
 """
 
+from osc2tx.ir.alternatives import is_drawn, is_partly_drawn
 from osc2tx.ir.behaviors import (
     Application,
     Behavior,

@@ -128,8 +128,7 @@ class CallCheck:
             if argument.parameter != "shape" or entry.shape is None:
                 continue
             wanted, value = entry.shape, argument.value
-            kinds = (*self._kinds(value), "any_shape")
-            if wanted not in kinds:
+            if wanted not in (*self._kinds(value), "any_shape"):
                 self._sink.report(
                     "OSC513",
                     argument.span,

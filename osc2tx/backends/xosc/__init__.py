@@ -9,6 +9,6 @@ the reason. It ends in the loss report, at the construct that was being looked a
 (`Context.report_as`).
 """
 
-from osc2tx.backends.xosc.emitter import XmlScenario, emit
+from osc2tx.backends.xosc.emitter import Choice, XmlScenario, emit
 
-__all__ = ["XmlScenario", "emit"]
+__all__ = ["Choice", "XmlScenario", "emit"]

@@ -35,6 +35,21 @@ import_all(actions.__name__, actions.__path__)  # they register the forms that t
 
 
 @dataclass(frozen=True, slots=True)
+class Choice:
+    """A parameter of a document that chooses a member of a `one_of`.
+
+    Attributes:
+        name: Of the parameter.
+        source: Line of the `one_of`.
+        values: The value for each member, in order.
+    """
+
+    name: str
+    source: str
+    values: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class XmlScenario:
     """One scenario as XML.
 
@@ -46,6 +61,7 @@ class XmlScenario:
         report: The grades of its constructs.
         origins: Where the members stand that the events of the document belong to, by event.
         map_places: Where its map was looked for, so that a change is noticed.
+        choices: The parameters of the document that choose a member of a `one_of`.
     """
 
     name: str
@@ -55,6 +71,7 @@ class XmlScenario:
     report: LossReport
     origins: Mapping[str, Span]
     map_places: tuple[Path, ...]
+    choices: tuple[Choice, ...] = ()
 
     @property
     def report_json(self) -> str | None:
@@ -123,7 +140,12 @@ class _Emission:
         made = self._made(infix, ctx.report, ctx.origins, ctx.map_places)
         if document is None or not ctx.report.is_expressible:
             return made
-        made = replace(made, xml=serialize(document, version))
+        choices = (
+            Choice(each.name, str(each.span), tuple(map(str, each.choices)))
+            for each in found.kept
+            if each.is_branch
+        )
+        made = replace(made, xml=serialize(document, version), choices=tuple(choices))
         if not found.kept or version < "1.1":
             return made
         header = document.one(FileHeader)

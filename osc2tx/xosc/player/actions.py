@@ -10,8 +10,9 @@ from osc2tx.xosc.player.across import Offsets
 from osc2tx.xosc.player.bodies import LATERAL, Body, Running, hang
 from osc2tx.xosc.player.errors import Unplayable
 from osc2tx.xosc.player.places import place_of
+from osc2tx.xosc.player.reading import BY_THE_STANDARD, Reading
 from osc2tx.xosc.player.scene import STILL, Scene
-from osc2tx.xosc.player.speeds import BY_THE_STANDARD, Laws, Speeds
+from osc2tx.xosc.player.speeds import Speeds
 from osc2tx.xosc.player.ways import Ways
 from osc2tx_runtime.opendrive import RoadMap
 
@@ -25,11 +26,11 @@ class Stage:
         bodies: dict[str, Body],
         road_map: RoadMap,
         dt: float,
-        laws: Laws = BY_THE_STANDARD,
+        reading: Reading = BY_THE_STANDARD,
     ) -> None:
         self._root = root
         self._scene = Scene(bodies, road_map, dt)
-        self._speeds = Speeds(self._scene, laws)
+        self._speeds = Speeds(self._scene, reading)
         self._offsets, self._ways = Offsets(self._scene), Ways(self._scene)
 
     # --- starting ---------------------------------------------------------------------------------

@@ -14,32 +14,16 @@ from osc2tx.xosc.element import Element
 from osc2tx.xosc.player.bodies import LONGITUDINAL, Body, Running
 from osc2tx.xosc.player.courses import PEAK_RATES, Course, between, number, shaped, with_jerk
 from osc2tx.xosc.player.errors import Unplayable
+from osc2tx.xosc.player.reading import Reading
 from osc2tx.xosc.player.scene import GAP_REACHED, STILL, Scene
 from osc2tx.xosc.player.synchrony import Synchrony
-from osc2tx_shared.classes import dataclass
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Laws:
-    """What a tool does with speeds otherwise than the standard.
-
-    Attributes:
-        carries: A profile of speeds begins with the present acceleration.
-        fits_gaps: A gap without limits is fitted in each step, to the space between boxes.
-    """
-
-    carries: bool = False
-    fits_gaps: bool = False
-
-
-BY_THE_STANDARD = Laws()
 
 
 class Speeds:
     """Longitudinal actions at work."""
 
-    def __init__(self, scene: Scene, laws: Laws) -> None:
-        self._scene, self._laws = scene, laws
+    def __init__(self, scene: Scene, reading: Reading) -> None:
+        self._scene, self._reading = scene, reading
         self._synchrony = Synchrony(scene)
         self._next: dict[str, float] = {}  # of the next step, as far as they are known
 
@@ -116,7 +100,9 @@ class Speeds:
                 courses.append(None)
                 continue
             peak = limit("maxAcceleration" if end > v else "maxDeceleration")
-            rate = self._carried(body) if self._laws.carries and not courses else 0.0
+            rate = (
+                self._carried(body) if self._reading.carries_acceleration and not courses else 0.0
+            )
             course, time = with_jerk(v, end, peak, limit("maxAccelerationRate"), rate)
             courses.append(course)
             points.append((begin + time, end))
@@ -168,7 +154,7 @@ class Speeds:
         if node.get("timeGap") is not None:
             wanted = number(node, "timeGap") * (body.v if is_behind else leader.v)
         is_rigid = limits is None and node.get("continuous") == "true"
-        if is_rigid and self._laws.fits_gaps:
+        if is_rigid and self._reading.fits_gaps:
             return self._fitted(body, run, node, leader)
         if is_rigid:
             time = number(node, "timeGap")

@@ -16,12 +16,12 @@ from osc2tx.xosc.element import Element
 from osc2tx.xosc.player.actions import Stage
 from osc2tx.xosc.player.agenda import Agenda
 from osc2tx.xosc.player.bodies import LATERAL, Body, Running, body_of, couple
-from osc2tx.xosc.player.conditions import BY_THE_STANDARD, Conditions, Reading
+from osc2tx.xosc.player.conditions import Conditions
 from osc2tx.xosc.player.courses import with_parameters
 from osc2tx.xosc.player.distances import Ruler
 from osc2tx.xosc.player.errors import Unplayable
 from osc2tx.xosc.player.global_state import GlobalState
-from osc2tx.xosc.player.speeds import Laws
+from osc2tx.xosc.player.reading import BY_THE_STANDARD, Reading
 from osc2tx.xosc.reader import read
 from osc2tx_runtime.opendrive import RoadMap
 
@@ -93,8 +93,7 @@ class Evaluator:
             body.counts_along_road = reading.counts_along_roads
             body.reports_commanded = reading.commands_speeds
             self.bodies[body.name] = body
-        laws = Laws(carries=reading.carries_acceleration, fits_gaps=reading.fits_gaps)
-        self.stage = Stage(self.root, self.bodies, road_map, dt, laws)
+        self.stage = Stage(self.root, self.bodies, road_map, dt, reading)
         self.ruler = Ruler(road_map)
         self.globals = GlobalState(self.root, self._changed)
         self.states: dict[int, str] = {}

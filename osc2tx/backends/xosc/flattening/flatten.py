@@ -25,7 +25,7 @@ from osc2tx.backends.xosc.flattening.parallel_overlaps import (
     unless_active,
 )
 from osc2tx.backends.xosc.flattening.storyboard import Act
-from osc2tx.backends.xosc.flattening.tree_queries import follows_route
+from osc2tx.backends.xosc.flattening.tree_queries import follows_route, may_go_on
 from osc2tx.backends.xosc.state import either
 from osc2tx.diagnostics import Span
 from osc2tx.losses.entries import Inexpressible, Remedy
@@ -109,12 +109,8 @@ class Flattener:
         for index, member in enumerate(node.members):
             began, flow = flow, self._member(member, flow)
             is_last = index + 1 == len(node.members)
-            if flow.is_never and not is_last and ir.is_open(member):
-                raise Inexpressible(
-                    "it never ends by itself, so what follows would never start: every run fails",
-                    member.span,
-                    Remedy(instead="a duration or an `until` is exact"),
-                )
+            if not is_last:
+                self._require_end(member, flow)
             if flow.is_never:
                 if is_last and index and ir.is_open(member):
                     flow = Flow((), flow.open_since or began)
@@ -123,6 +119,21 @@ class Flattener:
                 following = self._builder.claimed(node.members[index + 1])
                 flow = end_open_actions(self._builder, flow, member, following)
         return flow
+
+    def _require_end(self, member: ir.Behavior, end: Flow) -> None:
+        """Refuse a member that never ends though others follow it.
+
+        Raises:
+            Inexpressible: No run gets past it.
+        """
+        instead = Remedy(instead="a duration or an `until` is exact")
+        if end.is_never:
+            reason = "it never ends by itself, so what follows would never start: every run fails"
+            raise Inexpressible(reason, member.span, instead)
+        if may_go_on(member, self._ctx.module.one_of):
+            reason = "a run fails that draws a member without end, for what follows never starts"
+            bound = "the same if another member is drawn"
+            self._ctx.report.approximate(construct_of(member), member.span, reason, bound, instead)
 
     def _parallel(self, node: ir.Parallel, start: Flow) -> Flow:
         if len(node.members) > 1:
@@ -178,9 +189,18 @@ class Flattener:
     def _one_of(self, node: ir.OneOf, start: Flow) -> Flow:
         policy = self._ctx.module.one_of
         if policy == "first":
+            if len(node.members) > 1:
+                note = f"`--one-of first` takes `{self._builder.name_of(node.members[0])}`"
+                self._ctx.report.exact("one_of", node.span, note)
             return self._member(node.members[0], start)
-        if policy == "seeded":
+        if ir.is_drawn(node, policy):
             return self._choice(node, start)
+        if ir.is_partly_drawn(node, policy):
+            reason = "of its members that control the same of one actor a run draws one"
+            drawing = Remedy(
+                instead="alternatives that all control the same of one actor are exact"
+            )
+            raise Inexpressible(reason, node.span, drawing)
         if len(node.members) > 1:
             start = self._builder.latched(start, self._builder.name_of(node))
         is_race = len(node.members) > 1

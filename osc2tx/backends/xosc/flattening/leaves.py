@@ -89,7 +89,8 @@ def invoke(builder: StoryboardBuilder, node: ir.Invoke, start: Flow, role: Role)
         if (member.name, change.domain) in successors:
             cut = ctx.states[member.name]
             ctx.states[member.name] = cut.finished(change.domain).going_on(cut)
-    for onward in walk_on(leaf, performance.changes):
+    onward = walk_on(leaf, performance.changes)
+    if onward is not None:
         builder.add(ctx.names.new(f"{name}_onward"), (onward,), goal, actor=member.name)
     return builder.mark_end(node, ends)
 

@@ -6,6 +6,7 @@ from osc2tx import ir
 from osc2tx.backends.xosc.actions.registry import TAKES
 from osc2tx.backends.xosc.state import LATERAL, LONGITUDINAL
 from osc2tx.catalogue import catalogue
+from osc2tx.options import OneOfPolicy
 
 DIRECTIONS_ALONG = ("ahead", "behind", "longitudinal")
 """Directions of an action that is about the speed; in others it is about the place in the lane."""
@@ -44,6 +45,21 @@ def _is_sideways(node: ir.Invoke) -> bool:
         and argument.value.member not in DIRECTIONS_ALONG
         for argument in node.arguments
     )
+
+
+def may_go_on(node: ir.Behavior, policy: OneOfPolicy) -> bool:
+    """Whether a member never ends by itself if certain alternatives of it are drawn."""
+    match node:
+        case ir.Serial() | ir.Parallel() | ir.OneOf() if node.until or node.duration is not None:
+            return False
+        case ir.Serial(members=members):
+            return may_go_on(members[-1], policy)
+        case ir.Parallel(members=members):
+            timed = [member for member in members if not ir.is_instant(member)]
+            return bool(timed) and all(may_go_on(member, policy) for member in timed)
+        case ir.OneOf(members=members) if ir.is_drawn(node, policy):
+            return any(may_go_on(member, policy) for member in members)
+    return ir.is_open(node)
 
 
 def follows_route(node: ir.Behavior) -> bool:

@@ -17,7 +17,7 @@ from osc2tx.backends.xosc.values.constants import Constant, Member
 from osc2tx.backends.xosc.values.folding import Values
 from osc2tx.diagnostics import Span
 from osc2tx.losses.entries import Inexpressible
-from osc2tx.options import XmlVersion
+from osc2tx.options import OneOfPolicy, XmlVersion
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.columns import declared
 from osc2tx.xosc.element import text_of
@@ -167,8 +167,8 @@ def open_parameters(scenario: ir.Scenario, module: ir.Module) -> tuple[OpenParam
             if parameter is not None:
                 found.setdefault(parameter.key, parameter)
         found.update((side.key, side) for side in _sides(scope, names))
-        if module.one_of == "seeded":
-            found.update((branch.key, branch) for branch in _branches(scope, names))
+        branches = _branches(scope, names, module.one_of)
+        found.update((branch.key, branch) for branch in branches)
     return _with_known_bounds(scenario, module, tuple(found.values()))
 
 
@@ -242,10 +242,10 @@ def _open(declaration: ir.Parameter, scope: Scope, names: Names) -> OpenParamete
     return replace(made, name=names.new(preferred), choices=choices, range_=range_)
 
 
-def _branches(scope: Scope, names: Names) -> Iterator[OpenParameter]:
-    """Yield the choices between members."""
+def _branches(scope: Scope, names: Names, policy: OneOfPolicy) -> Iterator[OpenParameter]:
+    """Yield the choices between members of which one is drawn."""
     for node in ir.walk_behaviors(scope.scenario.body):
-        if not isinstance(node, ir.OneOf) or len(node.members) < 2:
+        if not isinstance(node, ir.OneOf) or len(node.members) < 2 or not ir.is_drawn(node, policy):
             continue
         members = Names()
         name = names.new(f"{scope.prefix}{node.label or 'branch'}")

@@ -7,7 +7,6 @@ a trajectory takes it across the road.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from itertools import pairwise
 
 from osc2tx.backends.xosc.actions.leaf import Change, Changes, Leaf
@@ -69,13 +68,15 @@ def stand(leaf: Leaf) -> Change:
     return walk(leaf, course, course.duration)
 
 
-def walk_on(leaf: Leaf, changes: Changes) -> Iterator[xml.PrivateAction]:
-    """Yield how a walker goes on where its way ends: tools would send it along the lane."""
+def walk_on(leaf: Leaf, changes: Changes) -> xml.PrivateAction | None:
+    """Return how a walker goes on where its way ends: tools would send it along the lane."""
     state = leaf.ctx.states[leaf.member.name]
     pose, speed = state.pose, state.known_speed
     actions = [each for change in changes if change.domain != WAY for each in change.actions]
-    if pose and speed and leaf.member.walks and any(a.find(xml.RoutingAction) for a in actions):
-        yield _straight_on(leaf, pose, course_of_speed(speed, speed, FASTEST, leaf.limits))
+    is_on_its_way = leaf.member.walks and any(a.find(xml.RoutingAction) for a in actions)
+    if not (pose and speed and is_on_its_way):
+        return None
+    return _straight_on(leaf, pose, course_of_speed(speed, speed, FASTEST, leaf.limits))
 
 
 def _straight_on(leaf: Leaf, start: Pose, course: Profile) -> xml.PrivateAction:

@@ -234,11 +234,18 @@ def cover_in_time(leaf: Leaf, call: Arguments, distance: float, time: float) -> 
     )
 
 
+ASIDE = ("lane", "lateral", "change_lane")
+"""Modifiers of the place across the road, which do not decide how an actor gets along it."""
+
+
 def check_end_is_free(leaf: Leaf, call: Arguments, *free: str) -> None:
-    """Require that nothing but a modifier, and free ones, holds at the end of an invocation."""
+    """Require that nothing but a modifier, and free ones, holds at the end of an invocation.
+
+    In a given time, where it is across the road does not count.
+    """
     ends = [m.name for m in leaf.node.modifiers if m is not call.source and m.at == "end"]
-    free += () if leaf.duration is None else ("lane", "lateral", "change_lane")
-    if any(name not in free for name in ends):
+    allowed = free if leaf.duration is None else (*free, *ASIDE)
+    if any(name not in allowed for name in ends):
         reason = f"what has to hold at the end of its {call.name} decides how it gets there"
         raise Inexpressible(reason)
 
