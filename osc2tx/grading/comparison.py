@@ -35,7 +35,7 @@ class Recording:
         choices: The chosen members, by the names of the choices.
         ends: When actors came to the end of their roads in a player (s).
         forks: When the tool of the player may have taken another road with an actor (s).
-        fails: The scenario has failed, or a monitor of the document says so.
+        fails: The scenario has failed; of a document, a monitor is false.
     """
 
     end: float

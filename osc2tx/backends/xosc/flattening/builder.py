@@ -155,6 +155,12 @@ class StoryboardBuilder:
             return _is_running(act)
         return self.keep(self.ctx.names.new(f"begin_{act.name}"), RUN_START)
 
+    def is_with_run(self, flow: Flow) -> bool:
+        """Whether a flow is the start of the present act, which begins with the run."""
+        if self.is_outermost:
+            return flow == RUN_START
+        return self.act.start == RUN_START and flow == _is_running(self.act)
+
     def name_of(self, node: ir.Behavior) -> str:
         """Return what a member of the scenario that is being written down is called."""
         return member_name(self.ctx.scope.scenario, node)

@@ -69,7 +69,7 @@ def invoke(builder: StoryboardBuilder, node: ir.Invoke, start: Flow, role: Role)
         for index, step in enumerate(steps):
             called = ctx.names.new(name) if index else name
             goal = builder.add(called, (step,), goal, actor=member.name, is_step=True)
-        is_first = start == RUN_START and builder.is_outermost and not is_cut
+        is_first = builder.is_with_run(start) and not is_cut
         if is_first and _is_initial(leaf, performance):
             _set_out(ctx, member.name, actions)
         elif not steps:
