@@ -127,7 +127,8 @@ class Flattener:
             Inexpressible: No run gets past it.
         """
         instead = Remedy(instead="a duration or an `until` is exact")
-        if end.is_never:
+        is_limited = isinstance(member, ir.Composition) and member.duration is not None
+        if end.is_never and not is_limited:  # else it fails, and the scenario with it
             reason = "it never ends by itself, so what follows would never start: every run fails"
             raise Inexpressible(reason, member.span, instead)
         if may_go_on(member, self._ctx.module.one_of):
