@@ -7,7 +7,7 @@ import pytest
 
 from osc2tx.backends.xosc.actions.position.position_actions import arrival
 from osc2tx.backends.xosc.actions.speed.acceleration import ramp
-from osc2tx.backends.xosc.actions.speed.courses import Computed, through_points
+from osc2tx.backends.xosc.actions.speed.courses import Computed, points_for, through_points
 from osc2tx.backends.xosc.facts.actors import Cosine, Linear, Quintic, SCurve, steepest
 from osc2tx.backends.xosc.facts.curves import Line, Waypoint, sample_curve
 from osc2tx.losses.entries import Inexpressible
@@ -43,6 +43,18 @@ def test_who_has_to_arrive_covers_the_way(missing: float) -> None:
     course = arrival(15.0, missing, 6.0)
     assert way(course) == pytest.approx(90.0 + missing, abs=1e-4)
     assert course.value(6.0) == pytest.approx(15.0 + 1.5 * missing / 6.0)
+
+
+@pytest.mark.parametrize(
+    ("missing", "duration"), [(30.0, 6.0), (30.0, 3.0), (-60.0, 9.0), (3.0, 6.0)]
+)
+def test_a_course_has_as_many_points_as_its_bend_asks_for(missing: float, duration: float) -> None:
+    """Straight stretches of a parabola are off by T^3 |v''| / (12 n^2), and |v''| is 3 m / T^3."""
+    course = arrival(15.0, missing, duration)
+    count = points_for(course)
+    off = [abs(missing) / (4.0 * each**2) for each in (count, count - 1)]
+    assert off[0] <= 0.05 and (off[1] > 0.05 or count == 4)
+    assert len(list(through_points(course, count).below(xml.SpeedProfileEntry))) == count < 24
 
 
 def test_points_on_a_straight_line_are_left_out() -> None:

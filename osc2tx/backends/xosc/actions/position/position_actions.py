@@ -19,7 +19,12 @@ from osc2tx.backends.xosc.actions.position.xml_positions import (
     world_position,
 )
 from osc2tx.backends.xosc.actions.registry import action, apply_modifiers, modifier, to_goal
-from osc2tx.backends.xosc.actions.speed.courses import POINTS, Computed, follow_course, speed_action
+from osc2tx.backends.xosc.actions.speed.courses import (
+    Computed,
+    follow_course,
+    points_for,
+    speed_action,
+)
 from osc2tx.backends.xosc.actions.speed.gaps import Gap, reach
 from osc2tx.backends.xosc.actions.speed.speed_modifiers import check_end_is_free, cover_in_time
 from osc2tx.backends.xosc.entities.cast import VEHICLE, CastMember
@@ -279,7 +284,7 @@ def _in_time(leaf: Leaf, call: Arguments, gap: Gap) -> Change:
     faster, slower = steepest(course)
     if faster > leaf.limits.acceleration or slower > leaf.limits.deceleration:
         call.doubt("it takes a larger acceleration than the actor has: the world makes up for it")
-    change = follow_course(leaf, course, even=even, told=call, count=2 * POINTS)
+    change = follow_course(leaf, course, even=even, told=call, count=points_for(course))
     if change.after.speed is None or change.after.speed.low < 0.0:
         raise Inexpressible("it would have to go backwards")
     return change

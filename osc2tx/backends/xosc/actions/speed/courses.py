@@ -12,7 +12,7 @@ from typing import Literal
 
 from osc2tx.backends.xosc.actions.arguments import Arguments
 from osc2tx.backends.xosc.actions.leaf import Change, Leaf, Performance
-from osc2tx.backends.xosc.facts.actors import Course, Linear
+from osc2tx.backends.xosc.facts.actors import Course, Linear, simpson
 from osc2tx.backends.xosc.state import LONGITUDINAL, Interval, known
 from osc2tx.losses.entries import GENERIC, Remedy
 from osc2tx.xosc import elements as xml
@@ -26,6 +26,11 @@ SINCE_PROFILES = Remedy(version="1.2")
 
 POINTS = 12
 """Points of a smooth course; the way it covers is within 2 cm for changes of 30 m/s."""
+
+FEWEST_POINTS, MOST_POINTS = 4, 48
+
+APART = 0.05
+"""Metres by which the points of a course may lead elsewhere; half of what an exact document may."""
 
 SAMPLES = 48
 """Pieces in which the extremes of a course are looked for."""
@@ -192,6 +197,29 @@ def through_points(course: Course, count: int = POINTS) -> xml.PrivateAction:
         entries.append(xml.SpeedProfileEntry(time=time, speed=speed))
         last = index
     return longitudinal(xml.SpeedProfileAction(*entries, followingMode="position"))
+
+
+def points_for(course: Course) -> int:
+    """Return how many points take an actor along a course, at each time nearly where it is there.
+
+    A course of open parameters has twice as many as others, for its bends are not known.
+    """
+    if isinstance(course.value(0.5 * course.duration), Symbol):
+        return 2 * POINTS
+    counts = range(FEWEST_POINTS, MOST_POINTS)
+    return next((count for count in counts if _apart(course, count) <= APART), MOST_POINTS)
+
+
+def _apart(course: Course, count: int) -> float:
+    """Return the largest distance (m) between who follows a course and who follows its points."""
+    step = course.duration / count
+    apart, most = 0.0, 0.0
+    for index in range(count):
+        left, right = index * step, (index + 1) * step
+        evenly = 0.5 * step * (course.value(left) + course.value(right))
+        apart += simpson(course, left, right) - evenly
+        most = max(most, abs(apart))
+    return most
 
 
 def _is_straight(speeds: Sequence[float], step: float) -> bool:
