@@ -102,6 +102,7 @@ def play(found: XmlScenario) -> tuple[float, bool]:
         (RACE.format(limit=15), 2.25, True),
         (RACE.format(limit=25), 7.0, True),  # the other one wins
         (OF_A_DRIVE.format(time="[2s..5s]"), 3.5, True),
+        (OF_A_DRIVE.format(time="[1s..4s]"), 3.5, True),  # later than the middle of the range
         (OF_A_DRIVE.format(time="[3s..5s]"), 2.5, False),
         (OF_A_DRIVE.format(time="[1s..2s]"), 3.0, True),
         (OF_A_DRIVE.format(time="5s"), 2.5, False),

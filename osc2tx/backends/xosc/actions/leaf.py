@@ -93,6 +93,16 @@ class Performance:
         return tuple(action for change in self.changes for action in change.actions)
 
 
+def _is_left_to_until(ctx: Context, node: ir.Invoke) -> bool:
+    """Whether an `until` decides when an action without end is over, within a range."""
+    entry = ir.entry_of(node)
+    is_endless = entry is not None and entry.ends == "open"
+    if node.duration is None or not node.until or not is_endless or ctx.module.dialect == "carla":
+        return False
+    low, high = ctx.values.bounds(node.duration)
+    return low < high
+
+
 class Leaf:
     """An invocation.
 
@@ -134,7 +144,9 @@ class Leaf:
         self.member = member
         self.arguments = Arguments(ctx, node)
         self.state = ctx.states[member.name]
-        own = None if node.duration is None else ctx.values.number(node.duration)
+        own = None
+        if node.duration is not None and not _is_left_to_until(ctx, node):
+            own = ctx.values.number(node.duration)
         self.duration = time_left if own is None else own
         self.limit = time_limit
         self.event = event
