@@ -4,12 +4,13 @@ VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 # Both distributions, from this checkout: given here, the runtime is not looked up in an index.
-INSTALL := $(BIN)/python -m pip install --quiet -e runtime_lib
+# Python compiles what it imports; pip would compile all modules.
+INSTALL := $(BIN)/python -m pip install --quiet --no-compile -e runtime_lib
 ifneq ($(wildcard ../shared),)
 export OSC2TX_TEST_DATA ?= $(abspath ../shared)
 endif
 
-.PHONY: coverage docs docs-diagnostics docs-config demo demo-carla dist compiled fuzz test test-carla test-cluster test-slow test-vscode lint goldens parser tables vscode playground clean
+.PHONY: coverage docs docs-diagnostics docs-config demo demo-carla dist compiled environment fuzz test test-carla test-cluster test-slow test-vscode lint lint-format lint-style lint-types goldens parser tables vscode playground pyodide clean
 
 demo: $(STAMP)
 	$(BIN)/osc2tx build scenarios/ -o generated/ --quiet
@@ -19,14 +20,16 @@ demo: $(STAMP)
 # Bytecode is kept whatever the environment says: else each process of the tests compiles all anew.
 unexport PYTHONDONTWRITEBYTECODE
 
-# The files of the tests are shared out among the processors.
-PYTEST := $(BIN)/pytest -q -n auto --dist loadfile
+# Each processor gets its part of the files in their order; who is done takes over from another one.
+PYTEST := $(BIN)/pytest -q -n auto --dist worksteal
+# Tests with targets of their own: of what `make test` does not install.
+SEPARATE := --ignore=tests/carla --ignore=tests/campaigns/test_cluster.py
 
 test: lint
-	$(PYTEST) -m "not slow"
+	$(PYTEST) -m "not slow" $(SEPARATE)
 
 test-slow: $(STAMP)
-	$(PYTEST) -m slow
+	$(PYTEST) -m slow $(SEPARATE)
 
 # Over CARLA's own client library, against a stand-in for its server.
 test-carla: $(VENV)/.carla
@@ -80,10 +83,17 @@ fuzz: $(STAMP)
 	$(BIN)/python tests/fuzz/run.py --look quick --seconds $(SECONDS) --seed $(SEED)
 
 lint: $(STAMP)
-	$(BIN)/ruff check .
-	$(BIN)/black --check --quiet .
-	$(BIN)/codespell
+	@$(MAKE) --no-print-directory -j2 lint-types lint-format lint-style
+
+lint-types: $(STAMP)
 	$(BIN)/mypy
+
+lint-format: $(STAMP)
+	$(BIN)/black --check --quiet .
+
+lint-style: $(STAMP)
+	$(BIN)/ruff check .
+	$(BIN)/codespell
 
 goldens: $(STAMP)
 	$(BIN)/pytest -q --update-golden
@@ -150,9 +160,17 @@ out/vscode/.installed:
 	touch $@
 
 # The site with the page that checks and runs scenarios in a browser; `make docs` keeps it from then on.
-playground: $(STAMP)
-	npm install --prefix out/npm --no-save --no-package-lock --no-audit --no-fund --silent pyodide@314.0.7
+playground: pyodide
 	$(MAKE) docs
+
+pyodide:
+	npm install --prefix out/npm --no-save --no-package-lock --no-audit --no-fund --silent pyodide@314.0.7
+
+# What all targets of `.ci/run` need, resolved once.
+environment:
+	$(PYTHON) -m venv $(VENV)
+	$(INSTALL) -e ".[test,docs,carla-test,dask]"
+	touch $(STAMP) $(VENV)/.docs $(VENV)/.carla $(VENV)/.dask
 
 $(STAMP): pyproject.toml runtime_lib/pyproject.toml
 	$(PYTHON) -m venv $(VENV)

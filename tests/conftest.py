@@ -13,6 +13,7 @@ from hypothesis import HealthCheck, settings
 from osc2tx.start import collect_rarely
 
 DATA_VARIABLE = "OSC2TX_TEST_DATA"
+RUNS_VARIABLE = "OSC2TX_TESTS_RUNS"  # read by tests/unit/backends/xosc/kept_runs.py
 
 # The same examples each time, and no clock decides: the machine may be busy.
 # tests/fuzz/run.py tries other ones for as long as one likes.
@@ -42,6 +43,8 @@ def pytest_configure(config: pytest.Config) -> None:
 def own_environment() -> Callable[[], None]:
     """Give tests a cache of their own, and none of our plugins to the pytest that they start.
 
+    Beside it are the runs that they share.
+
     pytest-lsp brings pytest-asyncio, which warns where it is not configured.
 
     Returns:
@@ -52,6 +55,7 @@ def own_environment() -> Callable[[], None]:
     patch = stack.enter_context(pytest.MonkeyPatch.context())
     for name in ("XDG_CACHE_HOME", "LOCALAPPDATA"):
         patch.setenv(name, folder)
+    patch.setenv(RUNS_VARIABLE, str(Path(folder, "runs")))
     patch.setenv("PYTEST_ADDOPTS", "-p no:asyncio")
     return stack.close
 

@@ -7,14 +7,14 @@ steps, and in every version.
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
-from functools import cache, lru_cache
+from functools import lru_cache
 from math import inf
 from pathlib import Path
 from types import MappingProxyType
 
-from osc2tx.backends.py_trees.emitter import GeneratedModule, emit
 from osc2tx.backends.xosc import XmlScenario
 from osc2tx.grading import comparison
 from osc2tx.grading.comparison import Deviation, Recording
@@ -34,9 +34,9 @@ from osc2tx.options import CompileOptions, XmlOptions
 from osc2tx.xosc import read
 from osc2tx.xosc.player import BY_THE_STANDARD, Reading, map_of
 from osc2tx.xosc.profiles import PROFILES
-from osc2tx_runtime import RunSettings
+from osc2tx_runtime import RunSettings, Scenario
 from osc2tx_shared.map_files import SHIPPED
-from tests.unit.backends.xosc.documents import PLAIN, compiled, graded_documents, module_of
+from tests.unit.backends.xosc.documents import PLAIN, compiled, generated, graded_documents
 
 FINE = 0.01  # s
 NEAR = comparison.EXACT
@@ -66,12 +66,6 @@ class Given:
 # --- the world ------------------------------------------------------------------------------------
 
 
-@cache
-def module(path: Path, options: CompileOptions) -> GeneratedModule:
-    """Return the module of a file."""
-    return emit(module_of(compiled(path, options)))
-
-
 @dataclass(frozen=True)
 class Run:
     """A scenario of a file with its settings, two of which are equal if they say the same."""
@@ -79,18 +73,32 @@ class Run:
     path: Path
     name: str
     options: CompileOptions
-    declared: tuple[tuple[str, float | str], ...]
     said: str
     settings: RunSettings = field(compare=False)
 
+    @contextmanager
+    def loaded(self) -> Iterator[type[Scenario]]:
+        """Give the class of the scenario."""
+        with scenarios_of_module(generated(compiled(self.path, self.options))) as scenarios:
+            yield scenarios[self.name]
+
+
+Values = tuple[tuple[str, float | str], ...]
+
 
 @lru_cache(maxsize=KEPT)
-def _outcome(run: Run) -> Recording:
+def _values(run: Run, declared: Values) -> Values:
+    """Return what of the declared values the scenario is given; documents declare more than it."""
+    with run.loaded() as scenario:
+        return tuple(values_for(scenario, run.settings, dict(declared)).items())
+
+
+@lru_cache(maxsize=KEPT)
+def _outcome(run: Run, values: Values) -> Recording:
     """Return what the embedded world does with a scenario."""
-    with scenarios_of_module(module(run.path, run.options)) as scenarios:
-        scenario, settings = scenarios[run.name], run.settings
-        values = values_for(scenario, settings, dict(run.declared))
-        found = run_in_world(scenario, replace(settings, set={**values, **settings.set}))
+    settings = run.settings
+    with run.loaded() as scenario:
+        found = run_in_world(scenario, replace(settings, set={**dict(values), **settings.set}))
     assert found.is_whole, "the time is over"
     return found.recording
 
@@ -103,7 +111,8 @@ def world(
     declared: Mapping[str, float | str] = MappingProxyType({}),
 ) -> Recording:
     """Return what the embedded world does with the values that a document declares."""
-    return _outcome(Run(path, name, options, tuple(declared.items()), repr(settings), settings))
+    run = Run(path, name, options, repr(settings), settings)
+    return _outcome(run, _values(run, tuple(declared.items())))
 
 
 def values_of(document: XmlScenario) -> dict[str, float | str]:

@@ -15,7 +15,12 @@ from osc2tx.options import XmlOptions, XmlProfile, XmlVersion
 from osc2tx_runtime import RunSettings
 from tests.golden.test_xosc import CASES
 from tests.golden.test_xosc import given as stated
-from tests.unit.backends.xosc.checks import schema_errors
+from tests.unit.backends.xosc.checks import (
+    checker_issues,
+    schema_errors,
+    story_problems,
+    untraced,
+)
 from tests.unit.backends.xosc.deprecations import deprecated
 from tests.xosc.case_study import OPTIONS, SCENARIO, maps_in, run_settings, xml_options
 from tests.xosc.parity import (
@@ -72,10 +77,6 @@ def case_study(maps: Path) -> Given:
     return Given(SCENARIO, settings, OPTIONS, xml, (maps,))
 
 
-def slow_but(path: Path) -> object:
-    return path if name(path) in QUICK else pytest.param(path, marks=pytest.mark.slow)
-
-
 def check_document(path: Path, source: Given, document: XmlScenario) -> None:
     """Compare a document with the world as far as metres say how far off it is."""
     if document.xml is None:
@@ -86,7 +87,7 @@ def check_document(path: Path, source: Given, document: XmlScenario) -> None:
         played(document.xml, 0.1, source.maps, reading=reading_for(source.xml), most=10.0)
 
 
-@pytest.mark.parametrize("path", list(map(slow_but, ALL)), ids=name)
+@pytest.mark.parametrize("path", [path for path in ALL if name(path) in QUICK], ids=name)
 def test_documents_are_like_the_world(path: Path) -> None:
     source = given(path)
     for document in scenarios(source):
@@ -94,16 +95,40 @@ def test_documents_are_like_the_world(path: Path) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("profile", "version"), WRITTEN)
 @pytest.mark.parametrize("path", ALL, ids=name)
-def test_all_versions_and_profiles(path: Path, profile: XmlProfile, version: XmlVersion) -> None:
-    source = given(path)
-    source = replace(source, xml=replace(source.xml, profile=profile, version=version))
-    for document in scenarios(source):
-        if document.xml is not None:
-            assert schema_errors(document.xml, version) == []
-            assert deprecated(document.xml, version) == set()
-        check_document(path, source, document)
+def test_all_versions_and_profiles(path: Path, tmp_path: Path) -> None:
+    """They are valid as well, their stories can end, and their events lead back to the source."""
+    for profile, version in WRITTEN:
+        source = given(path)
+        source = replace(source, xml=replace(source.xml, profile=profile, version=version))
+        for document in scenarios(source):
+            try:
+                check_text(document, version)
+                if profile == "generic":
+                    check_quality(document, tmp_path)
+                check_document(path, source, document)
+            except AssertionError as error:
+                error.add_note(f"{document.name} in version {version} for {profile}")
+                raise
+
+
+def check_text(document: XmlScenario, version: XmlVersion) -> None:
+    """Look at a document as it is written."""
+    assert (document.xml is None) == bool(document.report.obstacles)
+    if document.xml is not None:
+        assert schema_errors(document.xml, version) == []
+        assert deprecated(document.xml, version) == set()
+        assert story_problems(document.xml) == []
+        assert untraced(document) == []
+    if document.parameters is not None:
+        assert schema_errors(document.parameters, version) == []
+
+
+def check_quality(document: XmlScenario, folder: Path) -> None:
+    """Let the quality checker look at a document and its values."""
+    for text in (document.xml, document.parameters):
+        if text is not None:
+            assert checker_issues(text, folder) == []
 
 
 @pytest.mark.slow
@@ -112,6 +137,12 @@ def test_case_study(test_data: Path) -> None:
     (document,) = scenarios(source)
     assert is_exact(document), document.report.obstacles
     check(source, document)
+
+
+def test_what_builds_write_is_one_of_the_versions_and_profiles() -> None:
+    stated = [given(path).xml for path in ALL]
+    assert {(xml.profile, xml.version) for xml in stated} <= set(WRITTEN)
+    assert all(xml.allow_approx for xml in stated)
 
 
 def test_exceptions_are_of_scenarios() -> None:

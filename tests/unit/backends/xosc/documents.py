@@ -1,11 +1,13 @@
 """Files of scenarios and their documents, each made once however many tests look at it."""
 
+from collections.abc import Callable
 from dataclasses import replace
-from functools import cache
+from functools import cache, lru_cache, partial
 from pathlib import Path
 
 from osc2tx import ir
 from osc2tx.backends.py_trees import emitter as module_emitter
+from osc2tx.backends.py_trees.emitter import GeneratedModule
 from osc2tx.backends.xosc import XmlScenario, emit
 from osc2tx.compilation.driver import Compilation
 from osc2tx.diagnostics import DiagnosticSink
@@ -28,6 +30,12 @@ def module_of(compilation: Compilation) -> ir.Module:
     return compilation.ir
 
 
+@lru_cache(maxsize=4)
+def generated(compilation: Compilation) -> GeneratedModule:
+    """Return the Python module of a file."""
+    return module_emitter.emit(module_of(compilation))
+
+
 @cache
 def documents(compilation: Compilation, options: XmlOptions) -> tuple[XmlScenario, ...]:
     """Return the documents of a file, exact ones also where approximations are allowed.
@@ -45,7 +53,7 @@ def unplayed_documents(
     module: ir.Module, options: XmlOptions, folder: Path
 ) -> tuple[XmlScenario, ...]:
     """Return the documents of a program, none of which is played."""
-    source = _source(module, CompileOptions(), options, folder)
+    source = _source(module, CompileOptions(), options, folder, lambda: module_emitter.emit(module))
     found = unplayed(emit(module, options, folder), source, DiagnosticSink())
     for each in found:
         if each.xml is None and any(entry.is_open for entry in each.report.entries):
@@ -57,13 +65,20 @@ def unplayed_documents(
 def graded_documents(compilation: Compilation, options: XmlOptions) -> tuple[XmlScenario, ...]:
     """Return the documents of a file as builds grade them; each keeps to its report."""
     module, folder, sink = module_of(compilation), compilation.path.parent, DiagnosticSink()
-    source = _source(module, compilation.options, options, folder)
+    generate = partial(generated, compilation)
+    source = _source(module, compilation.options, options, folder, generate)
     with kept_runs():
         found = graded(emit(module, options, folder), source, sink)
     assert not sink.has_errors, sink.sorted()
     return found
 
 
-def _source(module: ir.Module, options: CompileOptions, xml: XmlOptions, folder: Path) -> Source:
+def _source(
+    module: ir.Module,
+    options: CompileOptions,
+    xml: XmlOptions,
+    folder: Path,
+    generate: Callable[[], GeneratedModule],
+) -> Source:
     options = replace(options, xml=xml, target="all")
-    return Source(module, options, folder, lambda: module_emitter.emit(module))
+    return Source(module, options, folder, generate)
