@@ -5,6 +5,7 @@ from __future__ import annotations
 import shutil
 from pathlib import Path
 
+import numpy  # noqa: F401  # loads once per process: `pytester` unloads what its tests import
 import pytest
 
 from osc2tx.cli import main

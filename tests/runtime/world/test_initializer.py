@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from collections import Counter
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
@@ -110,6 +111,25 @@ def test_default_places_do_not_overlap(highway: RoadMap) -> None:
     world = place(highway, *((car, ()) for car in cars))
     places = [(world.state(car.id).lane, world.state(car.id).s) for car in cars]
     assert len(set(places)) == 6
+
+
+def test_the_road_ahead_of_a_start_is_looked_at_once(
+    highway: RoadMap, a: Vehicle, b: Vehicle, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """However many positions of `a` leave no room for `b`."""
+    looked: list[Any] = []
+    advance = RoadMap.advance
+
+    def counted(road_map: RoadMap, place: Any, distance: float, route: Any = None) -> Any:
+        looked.append((place, distance))
+        return advance(road_map, place, distance, route)
+
+    monkeypatch.setattr(RoadMap, "advance", counted)
+    text = failure(highway, (a, ()), (b, [position(distance=5000.0, ahead_of=a)]))
+    assert "the lane does not reach 5000.0 m ahead of a" in text
+    starts = highway.spawn_points()
+    assert {place for place, _ in looked} == set(starts)
+    assert set(Counter(looked).values()) == {1}
 
 
 def test_carla_frame_is_left_handed(highway: RoadMap) -> None:

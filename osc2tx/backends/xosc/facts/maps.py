@@ -15,6 +15,7 @@ from osc2tx.backends.xosc.facts.curves import Waypoint
 from osc2tx.losses.entries import Inexpressible
 from osc2tx_runtime.domain.map.search import find_map
 from osc2tx_runtime.domain.modifiers import Lane
+from osc2tx_runtime.domain.placing.default_starts import StartPlaces
 from osc2tx_runtime.domain.routes.lane_coordinates import place_along_road
 from osc2tx_runtime.domain.routes.road_paths import way_through
 from osc2tx_runtime.enums import BulbState, SemanticTrafficLightState
@@ -44,6 +45,7 @@ class Roads:
         self.map = road_map
         self.file = file
         self._signals = Signals(road_map)
+        self.starts = StartPlaces(road_map)
 
     @cached_property
     def sharpest_bend(self) -> float:

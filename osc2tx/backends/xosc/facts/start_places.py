@@ -10,7 +10,7 @@ from osc2tx.backends.xosc.facts.map_search import MapSegment
 from osc2tx.backends.xosc.facts.maps import Lane, LanePosition, Pose, Roads
 from osc2tx.diagnostics import Span
 from osc2tx.losses.entries import Inexpressible, NoPlace
-from osc2tx_runtime.domain.placing.default_starts import StartPlaces, TakenBy
+from osc2tx_runtime.domain.placing.default_starts import TakenBy
 from osc2tx_runtime.domain.placing.start_room import Placed, StartRoom
 from osc2tx_runtime.domain.routes.lane_coordinates import place_at_distance
 from osc2tx_runtime.language.tree import parallel_schedule as schedule
@@ -36,10 +36,9 @@ def open_place(
     Raises:
         NoPlace: There is no such place.
     """
-    places = StartPlaces(roads.map)
     if segment is None:
-        return places.default(name, lane, distance, taken_by)
-    return places.on_path(name, segment, lane, distance, taken_by)
+        return roads.starts.default(name, lane, distance, taken_by)
+    return roads.starts.on_path(name, segment, lane, distance, taken_by)
 
 
 @refusing(NoPlace)
@@ -49,7 +48,7 @@ def given_place(roads: Roads, name: str, spawn: LanePosition, lane: Lane | None)
     Raises:
         NoPlace: The map has no such place, or it is in another lane than the scenario says.
     """
-    return StartPlaces(roads.map).given(name, spawn, lane, None)
+    return roads.starts.given(name, spawn, lane, None)
 
 
 def box_at(pose: Pose, shape: Shape) -> Box:

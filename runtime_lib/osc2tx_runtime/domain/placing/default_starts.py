@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from functools import partial
+from functools import lru_cache, partial
 from typing import TypeAlias
 
 from osc2tx_runtime.domain.map.segments import MapSegment
@@ -14,6 +14,7 @@ from osc2tx_runtime.opendrive import LanePosition, MapError, RoadMap
 from osc2tx_runtime.world.geometry.lane_neighbours import lane_with_number, number_of_lane
 
 _AHEAD = 100.0  # m of road ahead that a start should have
+_MOST_KEPT = 1 << 15  # positions of which it is known
 
 TakenBy: TypeAlias = Callable[[LanePosition], str | None]
 """Returns the actor that blocks a position, and the overlap; None if it is free."""
@@ -24,6 +25,8 @@ class StartPlaces:
 
     def __init__(self, road_map: RoadMap) -> None:
         self._map = road_map
+        # Making room for an actor asks for the same positions many times.
+        self._leads_on = lru_cache(maxsize=_MOST_KEPT)(self._has_road_ahead)
 
     def given(
         self,
@@ -156,11 +159,14 @@ class StartPlaces:
         """Default start positions, those shortly before a dead end last."""
         dead_ends = []
         for place in self._places(lane, distance):
-            if self._map.advance(place, _AHEAD).travelled < _AHEAD:
-                dead_ends.append(place)
-            else:
+            if self._leads_on(place):
                 yield place
+            else:
+                dead_ends.append(place)
         yield from dead_ends
+
+    def _has_road_ahead(self, place: LanePosition) -> bool:
+        return self._map.advance(place, _AHEAD).travelled >= _AHEAD
 
     def _places(self, lane: Lane | None, distance: float | None) -> Iterator[LanePosition]:
         """Default start positions; with a distance, positions there on each road.

@@ -190,7 +190,8 @@ class ScenarioInitializer(StartRoom[ActorStart]):
 
     def _taken_by(self, start: ActorStart, place: LanePosition) -> str | None:
         """The actor that blocks a position, or that could not be placed beside it."""
-        if self.was_tried(start, place._replace(offset=0.0)):
+        centre = place._replace(offset=0.0) if place.offset else place
+        if self.was_tried(start, centre):
             return "another actor"
         return self._who_is_at(start.actor, place)
 

@@ -60,7 +60,7 @@ class StartRoom(ABC, Generic[StartT]):
         self._most_tries = most_tries
         self._placed: dict[str, Placed] = {}
         # Positions that left no room for the actors that start relative to it.
-        self._tried: dict[str, list[LanePosition | None]] = {}
+        self._tried: dict[str, set[LanePosition | None]] = {}
 
     @abstractmethod
     def place(self, start: StartT) -> Placed:
@@ -121,10 +121,10 @@ class StartRoom(ABC, Generic[StartT]):
         if anchor is None:
             return False
         moved = [each for each in placed if each is anchor or _is_behind(each, anchor, placed)]
-        tried = self._tried.setdefault(anchor.id, [])
+        tried = self._tried.setdefault(anchor.id, set())
         lane = self._placed[anchor.id].lane
         for _ in range(self._most_tries):
-            tried.append(lane)
+            tried.add(lane)
             for each in moved:
                 self._placed.pop(each.id, None)
             try:
