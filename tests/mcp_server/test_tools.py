@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import sys
-from collections.abc import Callable, Coroutine
+from collections.abc import Callable, Coroutine, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -46,17 +46,36 @@ def served(folder: Path, work: Work, *options: str) -> Any:
     return asyncio.run(asyncio.wait_for(talk(), SECONDS))
 
 
-def called(folder: Path, tool: str, *options: str, **arguments: Any) -> Any:
-    result = served(folder, lambda client: client.call_tool(tool, arguments), *options)
+def asked(folder: Path, *calls: tuple[str, dict[str, Any]], options: Sequence[str] = ()) -> Any:
+    """Return what one server answers to calls of tools with arguments."""
+
+    async def ask(client: Client) -> list[Any]:
+        return [await client.call_tool(tool, arguments) for tool, arguments in calls]
+
+    return served(folder, ask, *options)
+
+
+def value_of(result: Any) -> Any:
+    """Return what a call gives; it must not fail."""
     assert not result.is_error, result.content
     found = result.structured_content
     return found["result"] if set(found) == {"result"} else found
 
 
-def refused(folder: Path, tool: str, **arguments: Any) -> str:
-    result = served(folder, lambda client: client.call_tool(tool, arguments))
+def reason_of(result: Any) -> str:
+    """Return why a call fails, which it has to."""
     assert result.is_error
     return str(result.content[0].text)
+
+
+def called(folder: Path, tool: str, *options: str, **arguments: Any) -> Any:
+    (result,) = asked(folder, (tool, arguments), options=options)
+    return value_of(result)
+
+
+def refused(folder: Path, tool: str, **arguments: Any) -> str:
+    (result,) = asked(folder, (tool, arguments))
+    return reason_of(result)
 
 
 def test_the_tools_and_what_they_may_do(tmp_path: Path) -> None:
@@ -117,17 +136,31 @@ def test_a_written_document_is_imported(tmp_path: Path) -> None:
 
 
 def test_look_up(tmp_path: Path) -> None:
-    assert "num_of_lanes" in called(tmp_path, "reference", name="change_lane")
-    assert "action vehicle.drive" in called(tmp_path, "reference")
-    assert called(tmp_path, "explain", code="OSC202")["code"] == "OSC202"
-    assert "did you mean" in refused(tmp_path, "reference", name="chang_lane")
-    assert "no code" in refused(tmp_path, "explain", code="OSC999")
+    one, all_of_them, code, misspelt, unknown = asked(
+        tmp_path,
+        ("reference", {"name": "change_lane"}),
+        ("reference", {}),
+        ("explain", {"code": "OSC202"}),
+        ("reference", {"name": "chang_lane"}),
+        ("explain", {"code": "OSC999"}),
+    )
+    assert "num_of_lanes" in value_of(one)
+    assert "action vehicle.drive" in value_of(all_of_them)
+    assert value_of(code)["code"] == "OSC202"
+    assert "did you mean" in reason_of(misspelt)
+    assert "no code" in reason_of(unknown)
 
 
 def test_what_cannot_be_run_is_an_error_that_states_why(tmp_path: Path) -> None:
-    said = refused(tmp_path, "run", text=SCENARIO.replace("ego: vehicle", "ego: car"))
+    unknown_type, empty, other = asked(
+        tmp_path,
+        ("run", {"text": SCENARIO.replace("ego: vehicle", "ego: car")}),
+        ("tree", {"text": "import osc.standard\n"}),
+        ("run", {"text": SCENARIO, "scenario": "other"}),
+    )
+    said = reason_of(unknown_type)
     assert "OSC202" in said and "car" in said
-    assert "declares no scenario" in refused(tmp_path, "tree", text="import osc.standard\n")
-    assert "follow" in refused(tmp_path, "run", text=SCENARIO, scenario="other")
+    assert "declares no scenario" in reason_of(empty)
+    assert "follow" in reason_of(other)
     (tmp_path / "osc2tx.toml").write_text("nonsense = 1\n")
     assert "nonsense" in refused(tmp_path, "check", text=SCENARIO)
