@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Callable, Iterator
 from dataclasses import fields
 from operator import attrgetter
@@ -68,12 +69,12 @@ class NodesByKind:
             root: Its root.
             closed: Classes of nodes below which nothing is looked at.
         """
-        self._found: dict[type[ast.Node], list[ast.Node]] = {}
+        self._found: defaultdict[type[ast.Node], list[ast.Node]] = defaultdict(list)
         stack = [root]
         while stack:
             node = stack.pop()
             kind = type(node)
-            self._found.setdefault(kind, []).append(node)
+            self._found[kind].append(node)
             if kind not in closed:
                 stack += reversed(children_of(node))
 

@@ -63,6 +63,8 @@ def _share_a_name(one: sym.Member, other: sym.Member) -> bool:
 
 def _add(symbol: sym.TypeSymbol, found: dict[sym.TypeSymbol, None]) -> None:
     """Add a type, those it inherits from, and those of its fields."""
+    if symbol in found:
+        return
     for ancestor in supertypes(symbol):
         if ancestor in found:
             continue

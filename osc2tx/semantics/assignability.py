@@ -11,11 +11,11 @@ from osc2tx.semantics.names.scenario_runner import reads_as_quantity
 from osc2tx.semantics.resolution import Environment, Resolution
 from osc2tx.semantics.types import (
     BOOL,
-    ERROR,
     EVENT,
     UINT,
     Dimension,
     EnumType,
+    ErrorType,
     ListType,
     PhysicalType,
     RangeType,
@@ -75,7 +75,7 @@ def check_fits(
     advise: Advise | None = None,
 ) -> None:
     """Report an expression whose type does not fit the target type; see `check_value`."""
-    if source == ERROR or target == ERROR:
+    if isinstance(source, ErrorType) or isinstance(target, ErrorType):
         return
     if allow_range and isinstance(source, RangeType) and not isinstance(target, RangeType):
         source = source.element
@@ -196,7 +196,7 @@ def _check_sign(r: Resolution, expression: ast.Expression, target: Type, what: s
         for element in expression.elements:
             _check_sign(r, element, target.element, f"an element of {what}")
         return
-    if target != UINT:
+    if not isinstance(expression, ast.Unary) or target != UINT:
         return
     match expression:
         case ast.Unary(

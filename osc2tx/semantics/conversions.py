@@ -90,7 +90,9 @@ def convertible_type(type_: Type) -> Type | None:
 
 def converts(source: Type, target: Type) -> bool:
     """Whether a value of one type can be used where another one is required."""
-    if isinstance(source, ErrorType) or isinstance(target, ErrorType) or source == target:
+    if source is target or source == target:  # the former of most, without a call
+        return True
+    if isinstance(source, ErrorType) or isinstance(target, ErrorType):
         return True
     match source, target:
         case PrimitiveType(), PrimitiveType():

@@ -222,16 +222,17 @@ def _init_first(self: Any, /, *positional: object, **named: object) -> None:
 
 
 _CODES: dict[tuple[object, ...], CodeType] = {}
-"""The code of constructors, by the kinds of the fields; field number 3 is called `_3` in it."""
+"""The code of constructors, by the kinds of their fields; field number 3 is called `_3` in it."""
 
 
 def _constructor(cls: Any) -> Any:
     scope: dict[str, Any] = {"_MISSING": MISSING}
-    is_frozen = cls.__setattr__ is _refuse
-    kinds: list[Any] = []
+    is_frozen, has_post_init = cls.__setattr__ is _refuse, hasattr(cls, "__post_init__")
+    kinds: list[tuple[bool, bool]] = []
     names: dict[str, str] = {}
     defaults: dict[Any, dict[str, Any]] = {False: {}, True: {}}
-    for field in dataclasses.fields(cls):
+    fields = sorted(dataclasses.fields(cls), key=_is_named)
+    for field in fields:
         number = len(kinds)
         has_default, is_made = field.default is not MISSING, field.default_factory is not MISSING
         if not (field.init or has_default or is_made):
@@ -245,12 +246,15 @@ def _constructor(cls: Any) -> Any:
         if is_frozen:
             scope[f"_set_{number}"] = _setter(cls, field.name)
         names[f"_{number}"] = field.name
-        kinds.append((field.init, field.kw_only, is_made))
-    key = (is_frozen, hasattr(cls, "__post_init__"), *kinds)
-    code = _CODES.get(key) or _CODES.setdefault(key, _code(is_frozen, key[1], *kinds))
+        kinds.append((field.init, is_made))
+    key = (is_frozen, has_post_init, *kinds)
+    code = _CODES.get(key) or _CODES.setdefault(key, _code(is_frozen, has_post_init, *kinds))
+    named = sum(1 for field in fields if field.init and field.kw_only)
     own = code.replace(
-        co_varnames=tuple(names.get(name, name) for name in code.co_varnames),
-        co_names=tuple(names.get(name, name) for name in code.co_names),
+        co_argcount=code.co_argcount - named,
+        co_kwonlyargcount=named,
+        co_varnames=tuple([names.get(name, name) for name in code.co_varnames]),
+        co_names=tuple([names.get(name, name) for name in code.co_names]),
         co_qualname=f"{cls.__qualname__}.__init__",
     )
     made = FunctionType(own, scope, "__init__", tuple(defaults[False].values()))
@@ -258,10 +262,17 @@ def _constructor(cls: Any) -> Any:
     return made
 
 
-def _code(is_frozen: bool, has_post_init: bool, *kinds: Any) -> CodeType:
-    """Return the code of the constructors of all classes with fields of these kinds."""
-    positional, named, lines = ["self"], ["*"], ["pass"]
-    for number, (is_parameter, is_named, is_made) in enumerate(kinds):
+_is_named = attrgetter("kw_only")
+
+
+def _code(is_frozen: bool, has_post_init: bool, *kinds: tuple[bool, bool]) -> CodeType:
+    """Return the code of the constructors of all classes with fields of these kinds.
+
+    All its parameters are positional: a constructor has as many of the last ones by name as it has
+    fields for keywords alone.
+    """
+    parameters, lines = ["self"], ["pass"]
+    for number, (is_parameter, is_made) in enumerate(kinds):
         name = f"_{number}"
         value = name if is_parameter else f"_default{name}"
         if is_made:
@@ -269,13 +280,12 @@ def _code(is_frozen: bool, has_post_init: bool, *kinds: Any) -> CodeType:
             if is_parameter:
                 value += f" if {name} is _MISSING else {name}"
         if is_parameter:
-            (named if is_named else positional).append(name)
+            parameters.append(name)
         lines.append(f"_set{name}(self, {value})" if is_frozen else f"self.{name} = {value}")
     if has_post_init:
         lines.append("self.__post_init__()")
-    parameters = ", ".join(positional + (named if len(named) > 1 else []))
     scope: dict[str, Any] = {}
-    exec(f"def __init__({parameters}):\n " + "\n ".join(lines), scope)
+    exec(f"def __init__({', '.join(parameters)}):\n " + "\n ".join(lines), scope)
     code: CodeType = scope["__init__"].__code__
     return code
 

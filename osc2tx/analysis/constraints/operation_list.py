@@ -32,7 +32,8 @@ ARITHMETIC = (Op.ADD, Op.SUBTRACT, Op.MULTIPLY, Op.DIVIDE, Op.MODULO)
 COMPARISONS = (Op.EQUAL, Op.NOT_EQUAL, Op.LESS, Op.LESS_EQUAL, Op.GREATER, Op.GREATER_EQUAL)
 LOGIC = (Op.AND, Op.OR, Op.IMPLIES)
 
-Key: TypeAlias = tuple[sym.Symbol | ast.Node, ...]
+Part: TypeAlias = sym.Symbol | ast.Node
+Key: TypeAlias = tuple[Part, ...]
 """A parameter: the fields that lead to it; an invocation's begin with the invocation."""
 
 INTEGERS = ("int", "uint")

@@ -15,7 +15,7 @@ expression, after overriding, so that a backend can write it as authored.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import field
 from enum import Enum
 from functools import partial
@@ -23,7 +23,7 @@ from functools import partial
 from osc2tx.analysis.constraints.collect import Collector, Shared
 from osc2tx.analysis.constraints.constraint import Constraint, Entry
 from osc2tx.analysis.constraints.domains import Choice, Domain, Interval, Value, close, is_void
-from osc2tx.analysis.constraints.operation_list import Key, domain_of_type
+from osc2tx.analysis.constraints.operation_list import Key, Part, domain_of_type
 from osc2tx.analysis.constraints.overrides import EffectiveConstraints, apply_overrides
 from osc2tx.analysis.constraints.parameter_lookup import name_of
 from osc2tx.analysis.constraints.solver import smallest_conflict, solve
@@ -102,6 +102,7 @@ class TypeConstraints:
         domains: The domain of each parameter that a constraint mentions.
         conflicts: Groups of constraints that cannot hold together.
         by_key: The constraints that mention a parameter.
+        members: The parameters whose paths begin with a field, an invocation or a composition.
         special: The conditional types that objects are of.
         undecided: The objects that may be of others, with those.
     """
@@ -111,6 +112,7 @@ class TypeConstraints:
     domains: Mapping[Key, Domain]
     conflicts: tuple[tuple[Constraint, ...], ...]
     by_key: Mapping[Key, tuple[Constraint, ...]] = field(default_factory=dict)
+    members: Mapping[Part, Sequence[Key]] = field(default_factory=dict)
     special: Mapping[Key, tuple[Special, ...]] = field(default_factory=dict)
     undecided: tuple[tuple[Key, Special], ...] = ()
 
@@ -266,12 +268,16 @@ def _analyse(owner: sym.TypeSymbol | None, entries: list[Entry]) -> TypeConstrai
     for constraint in constraints:
         for key in constraint.operations.keys_in_order:
             by_key.setdefault(key, []).append(constraint)
+    members: dict[Part, list[Key]] = {}
+    for key in by_key:
+        members.setdefault(key[0], []).append(key)
     return TypeConstraints(
         owner=owner,
         in_force=in_force,
         domains=solution.domains,
         conflicts=tuple(conflicts),
         by_key={key: tuple(found) for key, found in by_key.items()},
+        members=members,
     )
 
 

@@ -112,9 +112,11 @@ class InvocationLowering:
     ) -> tuple[ir.ModifierCall, ...]:
         """Return the modifiers that `extend` applies in an action of the library."""
         added = [statement for each in supertypes(callee) for statement in each.added]
+        members = [each for each in added if isinstance(each, ast.ModifierApplication)]
+        if not members:
+            return ()
         lowering = replace(self._modifier_lowering(node, actor, callee, attached), within=(node,))
-        members = (each for each in added if isinstance(each, ast.ModifierApplication))
-        return tuple(call for each in members for call in lowering.lower(each))
+        return tuple([call for each in members for call in lowering.lower(each)])
 
     def _action(
         self,

@@ -159,9 +159,9 @@ class ConstraintLowering:
         binding = self.ctx.model.bindings.get(node)
         is_of_library = binding is not None and binding.callee.origin != "user"
         is_atomic = binding is not None and not is_composed(binding.callee)
-        for key, mentioned in self.found.by_key.items():
-            parameter = key[-1]
-            if key[0] is not node or len(key) != 2 or not isinstance(parameter, sym.FieldSymbol):
+        for key in self.found.members.get(node, ()):
+            parameter, mentioned = key[-1], self.found.by_key[key]
+            if len(key) != 2 or not isinstance(parameter, sym.FieldSymbol):
                 continue
             if any(c.subject == key and c.origin == "argument" for c in mentioned):
                 continue
@@ -181,13 +181,11 @@ class ConstraintLowering:
     def structs_of_instance(self, node: Instance) -> Iterator[sym.FieldSymbol]:
         """Yield the parameters of an invocation that constraints describe by their fields."""
         found: dict[sym.FieldSymbol, None] = {}
-        for key in self.found.by_key:
-            parameter = key[1] if len(key) > 2 and key[0] is node else None
-            match parameter:
-                case sym.FieldSymbol(type=types.StructType()) if (
-                    key[:2] not in self.ctx.state.given
-                ):
-                    found[parameter] = None
+        for key in self.found.members.get(node, ()):
+            match key[1] if len(key) > 2 else None:
+                case sym.FieldSymbol(type=types.StructType()) as parameter:
+                    if key[:2] not in self.ctx.state.given:
+                        found[parameter] = None
         yield from found
 
     def is_only_definition(self, setting: Setting, key: Key) -> bool:

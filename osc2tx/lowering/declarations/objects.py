@@ -119,7 +119,7 @@ class ObjectLowering:
 
     def is_said(self, field: sym.FieldSymbol) -> bool:
         """Whether a constraint mentions a member of an object."""
-        return any(key[0] is field and len(key) > 1 for key in self._constraints.found.by_key)
+        return any(len(key) > 1 for key in self._constraints.found.members.get(field, ()))
 
     def is_open(self, field: sym.FieldSymbol) -> bool:
         """Whether no constraint states all values that the class of an object requires."""

@@ -23,9 +23,10 @@ def infer(
     known = r.types.get(expression)
     if known is not None:
         return known
-    for inner in reversed(list(_spine(expression))):
-        if inner not in r.types:
-            r.types[inner] = _infer_one(r, inner, env, None)
+    if isinstance(expression, _CHAINED):
+        for inner in reversed(list(_spine(expression))):
+            if inner not in r.types:
+                r.types[inner] = _infer_one(r, inner, env, None)
     type_ = _infer_one(r, expression, env, expected)
     r.types[expression] = type_
     return type_
@@ -57,7 +58,8 @@ def _next_in_chain(expression: ast.Expression) -> ast.Expression | None:
 
 
 _CHAINED = (
-    ast.Binary | ast.Unary | ast.MemberAccess | ast.Cast | ast.TypeTest | ast.Index | ast.Call
+    *(ast.Binary, ast.Unary, ast.MemberAccess),
+    *(ast.Cast, ast.TypeTest, ast.Index, ast.Call),
 )
 
 
