@@ -44,7 +44,6 @@ RELATIVE = "how fast a relative speed is taken up is one rate in XML, two in the
 HELD = "the speed that is held is only known during the run"
 WITHOUT_SECOND = {  # what is imported has no document again, by names of scenarios
     "assign_orientation": TRAJECTORY,
-    "cut_in_and_evade": HELD,
     "follow_leader": "how a gap is closed is a matter of the tool",
     "move_drive_walk": TRAJECTORY,
     "orientation_modifiers": TRAJECTORY,
