@@ -8,10 +8,9 @@ from osc2tx.catalogue import catalogue
 from osc2tx.ir.behaviors import Behavior, Invoke, OneOf
 from osc2tx.ir.expressions import FieldRef
 from osc2tx.ir.trees import entry_of, first_actions
-from osc2tx.options import OneOfPolicy
 
 
-def is_drawn(node: OneOf, policy: OneOfPolicy) -> bool:
+def is_drawn(node: OneOf, policy: str) -> bool:
     """Whether one member is drawn before the run.
 
     In a race it is if each two members control the same of an actor from the start.
@@ -22,7 +21,7 @@ def is_drawn(node: OneOf, policy: OneOfPolicy) -> bool:
     return policy == "seeded"
 
 
-def is_partly_drawn(node: OneOf, policy: OneOfPolicy) -> bool:
+def is_partly_drawn(node: OneOf, policy: str) -> bool:
     """Whether some members of a race are drawn, and others take part in any case."""
     pairs = _rivalries(node)
     return policy == "race" and any(pairs) and not all(pairs)

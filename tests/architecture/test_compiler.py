@@ -33,7 +33,7 @@ MAY_IMPORT: dict[str, set[str]] = {
         "syntax.si_notation",
     },
     "analysis": {"catalogue", "diagnostics", "options", "semantics", "syntax.ast"},
-    "ir": {"catalogue", "diagnostics", "options"},
+    "ir": {"catalogue", "diagnostics"},
     "lowering": {"analysis", "catalogue", "ir", "semantics", "syntax.ast"}
     | {"diagnostics", "options"},
     "xosc": {"diagnostics", "options"},

@@ -6,7 +6,6 @@ from osc2tx import ir
 from osc2tx.backends.xosc.actions.registry import TAKES
 from osc2tx.backends.xosc.state import LATERAL, LONGITUDINAL
 from osc2tx.catalogue import catalogue
-from osc2tx.options import OneOfPolicy
 
 DIRECTIONS_ALONG = ("ahead", "behind", "longitudinal")
 """Directions of an action that is about the speed; in others it is about the place in the lane."""
@@ -47,7 +46,7 @@ def _is_sideways(node: ir.Invoke) -> bool:
     )
 
 
-def may_go_on(node: ir.Behavior, policy: OneOfPolicy) -> bool:
+def may_go_on(node: ir.Behavior, policy: str) -> bool:
     """Whether a member never ends by itself if certain alternatives of it are drawn."""
     match node:
         case ir.Serial() | ir.Parallel() | ir.OneOf() if node.until or node.duration is not None:

@@ -17,7 +17,7 @@ from osc2tx.backends.xosc.values.constants import Constant, Member
 from osc2tx.backends.xosc.values.folding import Values
 from osc2tx.diagnostics import Span
 from osc2tx.losses.entries import Inexpressible
-from osc2tx.options import OneOfPolicy, XmlVersion
+from osc2tx.options import XmlVersion
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.columns import declared
 from osc2tx.xosc.element import text_of
@@ -242,7 +242,7 @@ def _open(declaration: ir.Parameter, scope: Scope, names: Names) -> OpenParamete
     return replace(made, name=names.new(preferred), choices=choices, range_=range_)
 
 
-def _branches(scope: Scope, names: Names, policy: OneOfPolicy) -> Iterator[OpenParameter]:
+def _branches(scope: Scope, names: Names, policy: str) -> Iterator[OpenParameter]:
     """Yield the choices between members of which one is drawn."""
     for node in ir.walk_behaviors(scope.scenario.body):
         if not isinstance(node, ir.OneOf) or len(node.members) < 2 or not ir.is_drawn(node, policy):

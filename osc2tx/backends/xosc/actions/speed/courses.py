@@ -12,7 +12,7 @@ from typing import Literal
 
 from osc2tx.backends.xosc.actions.arguments import Arguments
 from osc2tx.backends.xosc.actions.leaf import Change, Leaf, Performance
-from osc2tx.backends.xosc.facts.actors import Course, Linear, simpson
+from osc2tx.backends.xosc.facts.actors import Course, Linear
 from osc2tx.backends.xosc.state import LONGITUDINAL, Interval, known
 from osc2tx.losses.entries import GENERIC, Remedy
 from osc2tx.xosc import elements as xml
@@ -199,7 +199,7 @@ def through_points(course: Course, count: int = POINTS) -> xml.PrivateAction:
     return longitudinal(xml.SpeedProfileAction(*entries, followingMode="position"))
 
 
-def points_for(course: Course) -> int:
+def points_for(course: Computed) -> int:
     """Return how many points take an actor along a course, at each time nearly where it is there.
 
     A course of open parameters has twice as many as others, for its bends are not known.
@@ -210,14 +210,14 @@ def points_for(course: Course) -> int:
     return next((count for count in counts if _apart(course, count) <= APART), MOST_POINTS)
 
 
-def _apart(course: Course, count: int) -> float:
+def _apart(course: Computed, count: int) -> float:
     """Return the largest distance (m) between who follows a course and who follows its points."""
     step = course.duration / count
     apart, most = 0.0, 0.0
     for index in range(count):
-        left, right = index * step, (index + 1) * step
-        evenly = 0.5 * step * (course.value(left) + course.value(right))
-        apart += simpson(course, left, right) - evenly
+        left, right = course.value(index * step), course.value((index + 1) * step)
+        middle = course.value((index + 0.5) * step)
+        apart += step * (4.0 * middle - 2.0 * (left + right)) / 6.0  # by Simpson's rule
         most = max(most, abs(apart))
     return most
 
