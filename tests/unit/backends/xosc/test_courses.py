@@ -53,7 +53,7 @@ def test_a_course_has_as_many_points_as_its_bend_asks_for(missing: float, durati
     course = arrival(15.0, missing, duration)
     count = points_for(course)
     off = [abs(missing) / (4.0 * each**2) for each in (count, count - 1)]
-    assert off[0] <= 0.05 and (off[1] > 0.05 or count == 4)
+    assert off[0] <= 0.03 and (off[1] > 0.03 or count == 4)
     assert len(list(through_points(course, count).below(xml.SpeedProfileEntry))) == count < 24
 
 

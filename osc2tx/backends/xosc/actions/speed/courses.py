@@ -29,8 +29,8 @@ POINTS = 12
 
 FEWEST_POINTS, MOST_POINTS = 4, 48
 
-APART = 0.05
-"""Metres by which the points of a course may lead elsewhere; half of what an exact document may."""
+APART = 0.03
+"""Metres by which the points of a course may lead elsewhere: well within an exact document."""
 
 SAMPLES = 48
 """Pieces in which the extremes of a course are looked for."""
