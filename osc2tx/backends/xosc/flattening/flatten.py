@@ -126,15 +126,20 @@ class Flattener:
         Raises:
             Inexpressible: No run gets past it.
         """
+        content = member
+        if isinstance(member, ir.InvokeScenario) and member.duration is None and not member.until:
+            content = self._ctx.scope.of(member).scenario.body
+        if not may_go_on(content, self._ctx.module.one_of):
+            return
         instead = Remedy(instead="a duration or an `until` is exact")
-        is_limited = isinstance(member, ir.Composition) and member.duration is not None
-        if end.is_never and not is_limited:  # else it fails, and the scenario with it
+        if end.is_never:
             reason = "it never ends by itself, so what follows would never start: every run fails"
             raise Inexpressible(reason, member.span, instead)
-        if may_go_on(member, self._ctx.module.one_of):
-            reason = "a run fails that draws a member without end, for what follows never starts"
-            bound = "the same if another member is drawn"
-            self._ctx.report.approximate(construct_of(member), member.span, reason, bound, instead)
+        if ir.is_open(content):  # what overrides it ends it
+            return
+        reason = "a run fails that draws a member without end, for what follows never starts"
+        bound = "the same if another member is drawn"
+        self._ctx.report.approximate(construct_of(member), member.span, reason, bound, instead)
 
     def _parallel(self, node: ir.Parallel, start: Flow) -> Flow:
         if len(node.members) > 1:

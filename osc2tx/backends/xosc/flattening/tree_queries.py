@@ -47,7 +47,7 @@ def _is_sideways(node: ir.Invoke) -> bool:
 
 
 def may_go_on(node: ir.Behavior, policy: str) -> bool:
-    """Whether a member never ends by itself if certain alternatives of it are drawn."""
+    """Whether a member never ends by itself if certain alternatives of it are taken."""
     match node:
         case ir.Serial() | ir.Parallel() | ir.OneOf() if node.until or node.duration is not None:
             return False
@@ -58,6 +58,8 @@ def may_go_on(node: ir.Behavior, policy: str) -> bool:
             return bool(timed) and all(may_go_on(member, policy) for member in timed)
         case ir.OneOf(members=members) if ir.is_drawn(node, policy):
             return any(may_go_on(member, policy) for member in members)
+        case ir.OneOf(members=(first, *_)) if policy == "first":
+            return may_go_on(first, policy)
     return ir.is_open(node)
 
 
