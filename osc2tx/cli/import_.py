@@ -16,7 +16,6 @@ from osc2tx.diagnostics import Severity
 from osc2tx.grading.imports import import_deviation
 from osc2tx.grading.runs import NoEvidence
 from osc2tx.importing.batch import Batch
-from osc2tx.importing.distributions import Distribution
 from osc2tx.importing.document import Folders, Refused
 from osc2tx.importing.importer import Imported
 from osc2tx.importing.libraries import COMMON, Library
@@ -38,18 +37,14 @@ class Result:
     """A document that was imported.
 
     Attributes:
-        source: The document; `None` for standard input.
         imported: The scenario.
         text: Its text, formatted.
         faults: Errors that a check of it finds.
-        distribution: Values for its runs.
     """
 
-    source: Path | None
     imported: Imported
     text: str
-    faults: tuple[str, ...]
-    distribution: Distribution | None = None
+    faults: tuple[str, ...] = ()
 
 
 @click.command(name="import")
@@ -147,14 +142,12 @@ def import_all(
     results: list[Result] = []
     refused = 0
     for found in batch.run(sources, name):
-        imported = found.imported
-        if isinstance(imported, Refused):
-            where = f"{found.source or 'standard input'}:{imported.place or ''}".rstrip(":")
-            complain(f"{where}: {imported.reason}")
+        if isinstance(found, Refused):
+            where = f"{found.source or 'standard input'}:{found.place or ''}".rstrip(":")
+            complain(f"{where}: {found.reason}")
             refused += 1
         else:
-            text = imported.text
-            results.append(Result(found.source, imported, text, (), found.distribution))
+            results.append(Result(found, found.text))
     out.mkdir(parents=True, exist_ok=True)
     kept = [] if _put_library(batch.library, out, force=force) else [out]
     for base in batch.bases:
@@ -167,7 +160,7 @@ def import_all(
             write_text(out / f"{each.imported.name}.import.json", each.imported.report.to_json())
         else:
             kept.append(path)
-    write_settings([(each.imported, each.distribution) for each in results], out)
+    write_settings([each.imported for each in results], out)
     return results, refused + len(kept)
 
 
@@ -232,7 +225,7 @@ def _checked(result: Result, out: Path) -> Result:
 def _measure(result: Result, compilation: Compilation) -> None:
     """Add the deviation of a run of the scenario from its document to the report."""
     imported, given, drawn = result.imported, {}, {}
-    if (values := result.distribution) is not None:
+    if (values := imported.distribution) is not None:
         given = drawn = values.first
         if imported.program.base:  # which a value that is the only one is a constant of
             drawn = {said: text for said, text in given.items() if values.open[said].is_open}

@@ -15,8 +15,6 @@ from osc2tx.importing.importer import Imported
 from osc2tx_shared.text import complain
 
 SETTINGS = "osc2tx.toml"
-Result = tuple[Imported, Distribution | None]
-"""A scenario, with the values for its runs."""
 
 
 def write_text(path: Path, text: str) -> None:
@@ -24,17 +22,17 @@ def write_text(path: Path, text: str) -> None:
     replace_file(path, text.encode())
 
 
-def write_settings(results: Sequence[Result], out: Path) -> None:
+def write_settings(results: Sequence[Imported], out: Path) -> None:
     """Write where the maps are, and the rows of campaigns; settings that exist stay."""
     folders = {
         os.path.relpath(file.parent, out)
-        for imported, _ in results
+        for imported in results
         if (file := imported.document.map_file) is not None
     }
     lines = [f"map_paths = {json.dumps(sorted(folders))}"] if folders else []
-    for imported, distribution in results:
-        if distribution is not None:
-            lines += _campaign(imported, distribution, out)
+    for imported in results:
+        if imported.distribution is not None:
+            lines += _campaign(imported, imported.distribution, out)
     if not lines:
         return
     place = out / SETTINGS

@@ -8,9 +8,8 @@ from collections.abc import Mapping
 from osc2tx.importing.cursor import Node
 from osc2tx.importing.dimensions import LENGTH, PRODUCT, Quantity, literal, total
 from osc2tx.importing.document import Document
-from osc2tx.importing.ground import Ground
-from osc2tx.importing.points import Spot, heading_of, odr_point
-from osc2tx.importing.starting import privates, teleports
+from osc2tx.importing.ground import Ground, teleports
+from osc2tx.importing.points import Spot, heading_of, lane_beside, odr_point
 from osc2tx.importing.values import Values
 from osc2tx.xosc.element import Element
 from osc2tx.xosc.player.bodies import Pose
@@ -37,23 +36,17 @@ class Beside:
         lanes = int(self._values.nominal(node, "dLane"))
         if abs(self._values.nominal(node, "offset")) > 1e-9 or self._values.varies(node, "offset"):
             return None
-        body, found = self._ground.bodies.get(said), self._ground.static_of(node)
-        direction = 1
-        if self._ground.map is not None and at_start:
-            if (
-                body is None
-                or body.pose is None
-                or found is None
-                or not isinstance(found[0], LanePosition)
-            ):
+        direction, road_map = 1, self._ground.map
+        if road_map is not None and at_start:
+            body, found = self._ground.bodies.get(said), self._ground.static_of(node)
+            if body is None or body.pose is None or found is None:
                 return None
-            theirs, ours = body.in_lane(self._ground.map), found[0]
-            directions = [
-                self._ground.map.travel_direction(each.road, each.lane) for each in (theirs, ours)
-            ]
-            if theirs.road != ours.road or len(set(directions)) > 1 or body.along < 0:
+            theirs, ours = body.in_lane(road_map), found[0]
+            if not isinstance(ours, LanePosition) or theirs.road != ours.road or body.along < 0:
                 return None
-            direction = directions[0]
+            direction = road_map.travel_direction(*theirs[:2])
+            if direction != road_map.travel_direction(*ours[:2]):
+                return None
             if self._is_shorter(node, theirs, ours):
                 return None
         along = "dsLane" if node.has("dsLane") else "ds"
@@ -81,20 +74,19 @@ class Beside:
     def in_road(self, node: Node) -> Spot | None:
         """Return a place on the road of another actor, whose own place says where that is."""
         said = node.said("entityRef")
-        body, found = self._ground.bodies.get(said), self._ground.static_of(node)
+        at, found = self._ground.on_road(said), self._ground.static_of(node)
         start = self._start_of(said)
-        if body is None or body.place is None or found is None or start is None:
+        if at is None or found is None or start is None or start.tag != "LanePosition":
             return None
-        place, own = found[0], body.place
-        if not isinstance(place, LanePosition) or start.tag != "LanePosition":
+        place, heading = found
+        if not isinstance(place, LanePosition):
             return None
-        assert self._ground.map is not None
         s = self._values.quantity(node.other(start), "s", LENGTH)
         along = "dsLane" if node.has("dsLane") else "ds"
         ahead = self._values.quantity(node, along, LENGTH)
-        direction = self._ground.map.travel_direction(own.road, own.lane) * body.along
+        direction = at.direction * at.body.along
         sign = 1 if along == "ds" else direction
-        if place.road != own.road or abs(s.value + sign * ahead.value - place.s) > 1e-6:
+        if place.road != at.place.road or abs(s.value + sign * ahead.value - place.s) > 1e-6:
             return None
         if (node.text("dLane") or "0").startswith("$"):
             node.approximate(f"dLane keeps the nominal value of `{node.text('dLane')}`")
@@ -103,7 +95,6 @@ class Beside:
         way = total(LENGTH, (1, s), (sign, ahead)).text
         if not (s.is_open or ahead.is_open):
             way = literal(place.s, LENGTH)
-        heading = found[1]
         return Spot(
             odr_point(place.road, str(place.lane), way, t),
             yaw="" if heading is None else heading_of(heading),
@@ -115,19 +106,18 @@ class Beside:
         `None`: it is not known, or its way across the road varies.
         """
         said = node.said("entityRef")
-        body, found = self._ground.bodies.get(said), self._ground.static_of(node)
-        start, road_map = self._start_of(said), self._ground.map
-        is_in_lane = start is not None and start.tag == "LanePosition"
-        if body is None or body.place is None or found is None or road_map is None:
+        here, found = self._ground.on_road(said), self._ground.static_of(node)
+        start = self._start_of(said)
+        if here is None or found is None or start is None or start.tag != "LanePosition":
             return None
-        if start is None or not is_in_lane or (node.element.get("dt") or "").startswith("$"):
+        if (node.element.get("dt") or "").startswith("$"):
             return None
         s = self._values.quantity(node.other(start), "s", LENGTH)
         ahead = self._values.quantity(node, "ds", LENGTH)
-        across = self._values.nominal(node, "dt") * road_map.travel_direction(*body.place[:2])
-        place = body.place._replace(s=s.value + ahead.value, offset=body.place.offset + across)
+        across = here.place.offset + self._values.nominal(node, "dt") * here.direction
+        place = here.place._replace(s=s.value + ahead.value, offset=across)
         try:
-            at, pose = road_map.pose(place), self._ground.pose_of(found[0])
+            at, pose = here.map.pose(place), self._ground.pose_of(found[0])
         except (MapError, LookupError):
             return None
         if math.hypot(at.x - pose.x, at.y - pose.y) > SAME:
@@ -148,21 +138,16 @@ class Beside:
             gap: How far the entity is ahead or behind, along the road.
             ahead: Whether it is ahead.
         """
-        body, start, own = (
-            self._ground.bodies[said],
-            self._start_of(reference),
-            self._start_of(said),
-        )
-        if body.place is None or start is None or own is None or start.tag != "LanePosition":
+        at, start, own = self._ground.on_road(said), self._start_of(reference), self._start_of(said)
+        if at is None or start is None or own is None or start.tag != "LanePosition":
             return None
-        assert self._ground.map is not None
         s = self._values.quantity(node.other(start), "s", LENGTH)
         offset = self._values.quantity(node.other(own), "offset", LENGTH)
-        direction = self._ground.map.travel_direction(body.place.road, body.place.lane) * body.along
+        direction = at.direction * at.body.along
         is_left = own.tag == "LanePosition" or direction > 0
         t = offset.text if is_left else f"-{offset.within(PRODUCT)}"
         way = total(LENGTH, (1, s), (direction if ahead else -direction, gap))
-        return Spot(odr_point(body.place.road, str(body.place.lane), way.text, t))
+        return Spot(odr_point(at.place.road, str(at.place.lane), way.text, t))
 
     def varies_aside(self, said: str) -> bool:
         """Whether an entity is put into its lane with an offset that varies from run to run."""
@@ -175,7 +160,7 @@ class Beside:
         return next(
             (
                 position.inner
-                for private in privates(self._document.root)
+                for private in self._document.tagged("Private")
                 if private.get("entityRef") == said
                 for position in teleports(private)
             ),
@@ -198,7 +183,4 @@ class Beside:
             return f"lane({p} > 0 ? {p} : -{p}, side_of: {reference}, side: {p} > 0 ? left : right)"
         if text.startswith("$"):
             node.approximate(f"dLane keeps the nominal value of `{text}`")
-        if lanes == 0:
-            return f"lane(same_as: {reference})"
-        count = "" if abs(lanes) == 1 else f"{abs(lanes)}, "
-        return f"lane({count}side_of: {reference}, side: {'left' if lanes > 0 else 'right'})"
+        return lane_beside(reference, lanes)

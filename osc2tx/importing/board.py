@@ -125,7 +125,7 @@ class BoardReader:
         holder = group.find("Actors")
         if holder is None:
             return
-        if (holder.text("selectTriggeringEntities") or "false").lower() in ("true", "1"):
+        if holder.is_true("selectTriggeringEntities"):
             holder.approximate("actors are those that are named, not those that trigger")
         for ref in holder.children("EntityRef"):
             yield self._values.text(ref, "entityRef")
@@ -133,9 +133,8 @@ class BoardReader:
     def _maneuvers_of(self, group: Node) -> Iterator[Node]:
         yield from group.children("Maneuver")
         for reference in group.children("CatalogReference"):
-            entry = self._values.entry(reference)
-            if entry is not None:
-                yield entry
+            if (found := self._values.entry(reference)) is not None:
+                yield found[0]
 
     def _executions(self, node: Node) -> int:
         """Return how often an event or a group is executed at most."""

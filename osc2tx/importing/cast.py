@@ -1,11 +1,13 @@
-"""Entities as actors; those of catalogs are of types in a library file for each catalog."""
+"""Entities as actors; those of catalogs are of types in the library.
+
+Controllers make an actor the system under test, and say nothing else.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 
-from osc2tx.importing.controllers import note_controllers
-from osc2tx.importing.cursor import Ledger, Node
+from osc2tx.importing.cursor import Node
 from osc2tx.importing.dimensions import LENGTH, literal
 from osc2tx.importing.document import Document
 from osc2tx.importing.libraries import Shared
@@ -13,7 +15,6 @@ from osc2tx.importing.names import Names, snake
 from osc2tx.importing.program import Declared, keeps
 from osc2tx.importing.statements import Call, call
 from osc2tx.importing.values import Values
-from osc2tx.xosc.element import Element, Unresolved
 from osc2tx_shared.classes import dataclass
 
 CATEGORIES: Mapping[str, str] = {
@@ -32,6 +33,7 @@ CATEGORIES: Mapping[str, str] = {
 
 RENAMED = {"van", "semitrailer", "motorbike", "bicycle", "train", "tram"}
 KINDS = ("Vehicle", "Pedestrian", "MiscObject")
+DRIVEN = "controllers drive nothing here: what drives the actor under test does"
 
 
 @dataclass
@@ -39,12 +41,14 @@ class Actor:
     """An entity of the document.
 
     Attributes:
+        said: Its name in the document.
         name: Its name in the scenario.
         kind: `vehicle`, `person` or `movable_object`.
         is_under_test: Whether a controller drives it.
         is_free: No bend lies ahead of its start: without an action it holds its speed.
     """
 
+    said: str
     name: str
     kind: str
     is_under_test: bool = False
@@ -134,19 +138,12 @@ class Cast:
         tows: Names of trailers in the document with those of the actors that tow them.
     """
 
-    def __init__(
-        self,
-        document: Document,
-        values: Values,
-        ledger: Ledger,
-        names: Names,
-        shared: Shared,
-    ) -> None:
+    def __init__(self, document: Document, values: Values, names: Names, shared: Shared) -> None:
         self.actors: dict[str, Actor] = {}
         self.members: dict[str, Declared] = {}
         self.tows: dict[str, tuple[str, Node]] = {}
         self._own: dict[str, Node] = {}
-        self._document, self._values, self._ledger = document, values, ledger
+        self._document, self._values = document, values
         self._names, self._shared = names, shared
 
     def add(self, node: Node) -> None:
@@ -164,7 +161,7 @@ class Cast:
             kind, constraints = facts(child, self._document)
             self.members[said] = Declared(name, kind, [f"it.{each}" for each in constraints])
             self._own[said] = child
-            self.actors[said] = Actor(name, _moving(kind), bool(controllers))
+            self.actors[said] = Actor(said, name, _moving(kind), bool(controllers))
             self._note_trailers(child, name)
             return
         reference = node.find("CatalogReference")
@@ -175,27 +172,21 @@ class Cast:
         else:
             type_name, kind = self._of_catalog(reference, name)
         self.members[said] = Declared(name, type_name)
-        self.actors[said] = Actor(name, kind, bool(controllers))
+        self.actors[said] = Actor(said, name, kind, bool(controllers))
 
     def _of_catalog(self, reference: Node, name: str) -> tuple[str, str]:
         """Return the type of an entity of a catalog, and of which kind that is."""
-        entry_name = self._values.text(reference, "entryName")
-        self._values.text(reference, "catalogName")
-        for each in reference.children("ParameterAssignments"):
-            each.use_all()
-        found = self._document.entry(reference.element)
+        found = self._values.entry(reference, "it is any vehicle")
         if found is None:
-            reference.approximate(
-                f"there is no entry {entry_name} in the catalogs; it is any vehicle"
-            )
             return "vehicle", "vehicle"
-        vehicle = self._ledger.track(found[0], found[1].name)
+        vehicle, path = found
         self._note_trailers(vehicle, name)
-        known = self._shared.type_of(found[1], entry_name)
+        key = path, vehicle.said("name")
+        known = self._shared.known(*key)
         if known is None:
             kind, constraints = facts(vehicle, self._document)
             body = keeps(constraints) or ["event unused"]
-            known = self._shared.new_type(found[1], vehicle.said("name"), _moving(kind), kind, body)
+            known = self._shared.type_of(key, key[1], _moving(kind), kind, body)
         else:
             vehicle.use_all()  # the document that made the type has reported on it
         return known.name, known.kind
@@ -215,8 +206,9 @@ class Cast:
             member = self.members[said]
             body = keeps([each.removeprefix("it.") for each in member.constraints])
             if body:
-                kind = self.actors[said].kind
-                known = self._shared.own_type(node.text("name") or said, kind, member.type, body)
+                kind, name = self.actors[said].kind, node.text("name") or said
+                key = name, member.type, *body
+                known = self._shared.type_of(key, name, kind, member.type, body)
                 self.members[said] = Declared(member.name, known.name)
 
     def couplings(self) -> list[Declared]:
@@ -236,14 +228,28 @@ def _moving(kind: str) -> str:
     return "vehicle" if kind == "trailer" else kind
 
 
-def bodies_of(document: Document) -> list[Element]:
-    """Return the entities with what the catalogs say about them."""
-    entities = next((each for each in document.resolved.children if each.tag == "Entities"), None)
-    return (
-        []
-        if entities is None
-        else [each for each in entities.children if each.tag == "ScenarioObject"]
-    )
+def note_controllers(node: Node, document: Document) -> None:
+    """Note that a part of a document is about controllers, with the entries that it names."""
+    for element in node.element.walk():
+        part = node.other(element)
+        part.idle(DRIVEN)
+        if element.tag != "CatalogReference":
+            continue
+        found = document.entry(element)
+        if found is None:
+            name = document.text_at(element.get("entryName") or "")
+            part.approximate(f"there is no entry {name} in the catalogs")
+            continue
+        entry = part.entry(found[0], found[1].name)
+        for inner in entry.element.walk():
+            entry.other(inner).idle(DRIVEN)
 
 
-__all__ = ["Actor", "Cast", "Unresolved", "bodies_of"]
+def gives_control(node: Node) -> bool:
+    """Whether a controller drives the actor from then on: not one that is only switched off."""
+    parts = list(node.element.walk())
+    switches = [each for each in parts if each.tag == "ActivateControllerAction"]
+    names = ("longitudinal", "lateral", "controllerRef")
+    on = [each.get(name) for each in switches for name in names]
+    assigned = any(each.tag == "AssignControllerAction" for each in parts)
+    return assigned or any(said not in (None, "false", "0") for said in on)

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Sequence
 
 from osc2tx.importing.cast import Actor
 from osc2tx.importing.cursor import Node
 from osc2tx.importing.dimensions import LENGTH, PRODUCT, SUM, literal
+from osc2tx.importing.effects import Reader, Readings
 from osc2tx.importing.expressions import joined_by
-from osc2tx.importing.place_conditions import ANYWHERE
-from osc2tx.importing.places import Places
-from osc2tx.importing.values import Values
+from osc2tx.importing.place_conditions import ANYWHERE, boxes
 from osc2tx.xosc.element import Element
 from osc2tx.xosc.player.distances import asked
 
@@ -18,7 +17,7 @@ CLEARANCE = "RelativeClearanceCondition"
 MANY = 20  # lanes: no road has more
 
 
-class Clearances:
+class Clearances(Reader):
     """Reads clearances.
 
     Attributes:
@@ -26,15 +25,8 @@ class Clearances:
         sides: Those of them whose distances count with a clearance.
     """
 
-    def __init__(
-        self,
-        values: Values,
-        places: Places,
-        actors: Mapping[str, Actor],
-        name_of: Callable[[Node], str],
-    ) -> None:
-        self._values, self._places, self._actors = values, places, actors
-        self._name_of = name_of
+    def __init__(self, readings: Readings) -> None:
+        super().__init__(readings)
         self.cleared: dict[tuple[str, str], int] = {}
         self.sides: dict[tuple[str, str], int] = {}
 
@@ -53,40 +45,36 @@ class Clearances:
         }
         self.sides = {pair: side for pair, side in self.cleared.items() if pair in far}
 
-    def expression(self, node: Node, said: str, a: str) -> str | None:
+    def expression(self, node: Node, actor: Actor) -> str | None:
         """Return the condition that no other actor is near, ahead or behind."""
-        refs = list(node.children("EntityRef"))
-        others = {self._values.text(each, "entityRef"): self._name_of(each) for each in refs}
-        if not others:
-            others = {key: each.name for key, each in self._actors.items() if each.name != a}
-        side = _side_of(self._places.resolved(node))
-        free = (node.text("freeSpace") or "false").lower() in ("true", "1")
+        named = [self._actor(each) for each in node.children("EntityRef")]
+        others = {each.said: each for each in named or self._actors.values()}
+        if not named:
+            del others[actor.said]
+        side, mode = _side_of(self._places.resolved(node)), boxes(node, "freeSpace")
         lanes = list(node.children("RelativeLaneRange"))
         is_narrow = any(
             abs(self._values.nominal(each, end, MANY)) < MANY
             for each in lanes
             for end in ("from", "to")
         )
-        aside = self._aside(said, lanes) if is_narrow else None
-        all_count = (node.text("oppositeLanes") or "false").lower() in ("true", "1")
+        aside = self._aside(actor, lanes) if is_narrow else None
+        all_count = node.is_true("oppositeLanes")
         if aside is not None:
             also = "" if all_count else ", and those of oncoming traffic count"
             node.approximate(f"lanes beside the actor are as wide as its first one{also}")
         elif is_narrow or not all_count:
             node.approximate("a clearance is that of all lanes")
         texts = []
-        for key, b in others.items():
-            if (said, key) in self.sides:
+        for other in others.values():
+            if (actor.said, other.said) in self.sides:
                 continue
-            bodies = [self._places.bodies.get(each) for each in (said, key)]
-            roads = [
-                None if each is None or each.place is None else each.place.road for each in bodies
-            ]
+            lane_of = [body and body.place for body in map(self._body, (actor, other))]
+            roads = [lane and lane.road for lane in lane_of]
             # along roads there is no distance where none leads to the other one
             is_along = roads[0] is not None and roads[0] == roads[1]
             method = "road_distance" if is_along else "object_distance"
-            mode = ", bounding_boxes" if free else ""
-            measure = f"{a}.{method}({b}, longitudinal{mode})"
+            measure = f"{actor.name}.{method}({other.name}, longitudinal{mode})"
             ahead = self._values.quantity(node, "distanceForward", LENGTH)
             behind = self._values.quantity(node, "distanceBackward", LENGTH)
             is_behind = (
@@ -95,18 +83,18 @@ class Clearances:
             is_ahead = f"{measure} > {ahead.within(SUM)}"
             text = {-1: is_behind, 1: is_ahead}.get(side, f"{is_behind} or {is_ahead}")
             if aside is not None and is_along:
-                across = f"{a}.road_distance({b}, lateral)"
+                across = f"{actor.name}.road_distance({other.name}, lateral)"
                 text += f" or {across} < {aside[0]} or {across} > {aside[1]}"
             texts.append(text)
         node.use_all()
         return joined_by("and", texts) if texts else "true"
 
-    def _aside(self, said: str, lanes: Sequence[Node]) -> tuple[str, str] | None:
+    def _aside(self, actor: Actor, lanes: Sequence[Node]) -> tuple[str, str] | None:
         """Return how far to the right and to the left a range of lanes reaches."""
-        body, road_map = self._places.bodies.get(said), self._places.map
-        if body is None or body.place is None or road_map is None or len(lanes) != 1:
+        at = self._on_road(actor)
+        if at is None or len(lanes) != 1:
             return None
-        width = road_map.lane_width(body.place.road, body.place.lane, body.place.s)
+        width = at.map.lane_width(at.place.road, at.place.lane, at.place.s)
         ends = (self._values.nominal(lanes[0], name, MANY) for name in ("from", "to"))
         low, high = sorted(ends)
         right, left = (low - 0.5) * width, (high + 0.5) * width

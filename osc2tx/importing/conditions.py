@@ -6,20 +6,15 @@ of events) is waited for first; then what may change.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping
 from dataclasses import field
 
-from osc2tx.importing.cast import Actor
 from osc2tx.importing.cursor import Node
 from osc2tx.importing.dimensions import TIME, Quantity
+from osc2tx.importing.effects import Reader, Readings
 from osc2tx.importing.entity_conditions import EntityConditions
 from osc2tx.importing.expressions import joined_by
-from osc2tx.importing.marks import Marks
-from osc2tx.importing.place_conditions import COMPARISONS
-from osc2tx.importing.places import Places
-from osc2tx.importing.signals import TrafficLights
-from osc2tx.importing.values import Values
 from osc2tx.xosc.element import Unresolved
+from osc2tx.xosc.player.courses import RULES
 from osc2tx_shared.classes import dataclass
 
 
@@ -88,40 +83,17 @@ class Trigger:
         )
 
 
-class Conditions:
+class Conditions(Reader):
     """Reads the triggers of a document.
 
-    Attributes:
-        events: Names of events that variables stand for, by variable and value.
-        outside: Names of events that come from outside.
+    Parameters that the storyboard sets are variables.
     """
 
-    def __init__(
-        self,
-        values: Values,
-        places: Places,
-        actors: Mapping[str, Actor],
-        lights: TrafficLights,
-        marks: Marks,
-        texts: Callable[[str], str | None],
-        set_in_run: Collection[str],
-    ) -> None:
-        """Take what conditions are about.
-
-        Args:
-            values: The values of the document.
-            places: Its places.
-            actors: Its actors.
-            lights: The traffic lights.
-            marks: The events that stand for variables.
-            texts: Gives the nominal value of a parameter.
-            set_in_run: Parameters that the storyboard sets: they are variables.
-        """
-        self._set = set_in_run
-        self._values, self._actors = values, actors
-        self._of_entity = EntityConditions(values, places, actors)
-        self._marks, self._texts, self._lights = marks, texts, lights
-        self.outside: dict[str, str] = {}
+    def __init__(self, readings: Readings) -> None:
+        super().__init__(readings)
+        self._of_entity = EntityConditions(readings)
+        setting = self._document.tagged("ParameterAction")
+        self._set = {node.said("parameterRef") for node in setting}
 
     def trigger(self, node: Node | None) -> Trigger:
         """Read a trigger; groups that cannot be met here are left out, with a finding."""
@@ -176,9 +148,7 @@ class Conditions:
             case "UserDefinedValueCondition":
                 name, value = self._values.text(node, "name"), self._values.text(node, "value")
                 node.text("rule")
-                event = self._marks.event(name, value)
-                self.outside[event] = f"{name} = {value}, from outside"
-                return Condition("event", node, text=event, delay=delay)
+                return Condition("event", node, self._marks.event(name, value), delay=delay)
         node.leave_out("the language has no condition for it; it is never met here")
         return Condition("never", node)
 
@@ -212,11 +182,11 @@ class Conditions:
     def _of_parameter(self, node: Node, delay: Quantity | None) -> Condition:
         said = node.said("parameterRef")
         rule, value = node.said("rule"), self._values.text(node, "value")
-        given = self._texts(said)
+        given = self._document.parameters.get(said)
         if given is None:
             node.leave_out(f"there is no parameter {said}; it is never met here")
             return Condition("never", node)
-        if rule not in COMPARISONS:
+        if rule not in RULES:
             raise Unresolved(f"rule has no value {rule!r}", node.place)
         holds = _holds(given, rule, value)
         if said in self._set and not holds:
@@ -230,14 +200,9 @@ class Conditions:
         triggering = node.one("TriggeringEntities")
         rule = triggering.text("triggeringEntitiesRule") or "any"
         condition = node.one("EntityCondition").inner
-        said = [self._values.text(ref, "entityRef") for ref in triggering.children("EntityRef")]
-        texts = []
-        lasting = 0.0
-        for name in said:
-            actor = self._actors.get(name)
-            if actor is None:
-                raise Unresolved(f"there is no entity {name}", triggering.place)
-            text = self._of_entity.expression(condition, name, actor.name)
+        texts, lasting = [], 0.0
+        for ref in triggering.children("EntityRef"):
+            text = self._of_entity.expression(condition, self._actor(ref))
             if text is None:
                 return Condition("never", condition)
             texts.append(text)
@@ -254,9 +219,6 @@ class Conditions:
 def _holds(given: str, rule: str, value: str) -> bool:
     """Whether a value of a parameter meets a rule."""
     try:
-        a, b = float(given), float(value)
+        return RULES[rule](float(given), float(value))
     except ValueError:
         return (given == value) == (rule == "equalTo")
-    holds = {"greaterThan": a > b, "lessThan": a < b, "greaterOrEqual": a >= b}
-    holds |= {"lessOrEqual": a <= b, "equalTo": a == b, "notEqualTo": a != b}
-    return holds[rule]

@@ -9,7 +9,7 @@ from itertools import pairwise
 from osc2tx.importing.cursor import Node
 from osc2tx.importing.dimensions import LENGTH, literal
 from osc2tx.importing.ground import UNKNOWN, Ground
-from osc2tx.importing.points import odr_point
+from osc2tx.importing.points import odr_point, point_of
 from osc2tx.importing.values import Values
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.player.bodies import Body, Pose
@@ -86,10 +86,9 @@ class Courses:
             length = self._ground.map.roads[place.road].length
             if not -ROUNDING <= place.s <= length + ROUNDING:
                 return []
-            t = place.offset * self._ground.map.travel_direction(place.road, place.lane)
-            at = literal(round(place.s, 6), LENGTH), literal(round(t, 6), LENGTH)
+            place = place._replace(s=round(place.s, 6), offset=round(place.offset, 6))
             varied = self._varied(trajectory.other(raw.one(xml.Position).inner))
-            found.append(varied or odr_point(place.road, str(place.lane), *at))
+            found.append(varied or point_of(place, self._ground.map))
         return found
 
     def is_nominal(self, trajectory: Node) -> bool:
@@ -164,9 +163,7 @@ class Courses:
             there = road_map.pose(place)
             if math.dist(there[:2], pose[:2]) > MILLIMETRES:
                 return []
-            t = place.offset * road_map.travel_direction(place.road, place.lane)
-            at = literal(place.s, LENGTH), literal(t, LENGTH)
-            found.append(odr_point(place.road, str(place.lane), *at))
+            found.append(point_of(place, road_map))
         return found
 
     def stops_of(self, route: Node) -> list[LanePosition]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from osc2tx.importing.report import ImportReport
+from osc2tx.importing.report import Finding, Grade, ImportReport
 from osc2tx.xosc.element import Element, Place, Unresolved
 
 NAMES = "the name has no effect"
@@ -18,30 +18,17 @@ HEADER = "the header describes the file"
 LOCATIONS = "catalogs are found by their paths; their entries are in the library files"
 AXLES = "no motion here depends on the wheels"
 
+LOOKS = "the look of an actor is up to the simulator"
+OBJECTS = ("Vehicle", "Pedestrian", "MiscObject")
+NAMED = ("Story", "Act", "ManeuverGroup", "Maneuver", "Event", "Action", "Condition", *OBJECTS)
+
 IDLE: Mapping[tuple[str, str], str] = {
-    ("Action", "name"): NAMES,
-    ("Condition", "name"): NAMES,
-    ("ManeuverGroup", "name"): NAMES,
-    ("Maneuver", "name"): NAMES,
-    ("Act", "name"): NAMES,
-    ("Story", "name"): NAMES,
-    ("Event", "name"): NAMES,
-    ("Trajectory", "name"): NAMES,
-    ("Vehicle", "name"): NAMES,
-    ("Pedestrian", "name"): NAMES,
-    ("MiscObject", "name"): NAMES,
-    ("Route", "name"): NAMES,
+    **{(tag, "name"): NAMES for tag in (*NAMED, "Trajectory", "Route", "Environment", "Weather")},
+    **{(tag, "mass"): LIMITS for tag in OBJECTS},
+    **{(tag, "model3d"): LOOKS for tag in OBJECTS},
+    ("Pedestrian", "model"): LOOKS,
     ("Controller", "name"): NAMES,
     ("Controller", "controllerType"): TOOLS,
-    ("Environment", "name"): NAMES,
-    ("Weather", "name"): NAMES,
-    ("Vehicle", "mass"): LIMITS,
-    ("Pedestrian", "mass"): LIMITS,
-    ("MiscObject", "mass"): LIMITS,
-    ("Pedestrian", "model"): "the look of an actor is up to the simulator",
-    ("Vehicle", "model3d"): "the look of an actor is up to the simulator",
-    ("Pedestrian", "model3d"): "the look of an actor is up to the simulator",
-    ("MiscObject", "model3d"): "the look of an actor is up to the simulator",
 }
 """Attributes without effect in the scenario, with the reasons."""
 
@@ -61,93 +48,71 @@ class Ledger:
 
     Attributes:
         report: Takes what has not.
+        used: Elements, and attributes of elements, that are used.
+        idle_here: Why attributes change nothing here, even if they were read.
+        files: The catalogs that elements are in.
     """
 
     def __init__(self, report: ImportReport) -> None:
         self.report = report
-        self._used: set[tuple[int, str]] = set()
-        self._idle_here: dict[tuple[int, str], str] = {}
+        self.used: set[tuple[int, str]] = set()
+        self.idle_here: dict[tuple[int, str], str] = {}
         self._roots: list[tuple[Element, str]] = []
-        self._files: dict[int, str] = {}
-        self._noted: set[tuple[str, str, str, str]] = set()
+        self.files: dict[int, str] = {}
 
     def track(self, root: Element, file: str = "") -> Node:
         """Return a root whose parts all have to be used; `file` if it is in a catalog."""
         self._roots.append((root, file))
         if file:
-            self._files.update((id(element), file) for element in root.walk())
-        return Node(root, self)
+            self.files.update((id(element), file) for element in root.walk())
+        return self.node(root)
+
+    def node(self, element: Element) -> Node:
+        """Return an element, which is used with that."""
+        self.used.add((id(element), ""))
+        return Node(element, self)
 
     @property
     def entries(self) -> list[tuple[Element, str]]:
         """The entries of catalogs that are tracked, with the names of their files."""
         return [(root, file) for root, file in self._roots if file]
 
-    def use(self, element: Element, name: str = "") -> None:
-        """Note that an element is used, or one of its attributes."""
-        self._used.add((id(element), name))
-
-    def use_all(self, element: Element) -> None:
-        """Note that all of an element is used."""
-        for each in element.walk():
-            here = id(each)
-            self._used.add((here, ""))
-            self._used.update([(here, name) for name, _ in each.attributes])
-
-    def set_idle(self, element: Element, name: str, reason: str) -> None:
-        """Note that an attribute changes nothing here, even if it was read."""
-        self._idle_here[id(element), name] = reason
-
-    def file_of(self, element: Element) -> str:
-        """Return the catalog that an element is in."""
-        return self._files.get(id(element), "")
-
     def close(self) -> None:
         """Report what nobody has used."""
-        for root, file in self._roots:
-            self._close(root, root.tag, file)
+        for root, _ in self._roots:
+            self._close(Node(root, self), root.tag)
 
-    def _close(self, element: Element, path: str, file: str) -> None:
+    def _close(self, node: Node, path: str) -> None:
+        element = node.element
         if element.tag in IDLE_ELEMENTS:
-            self._idle(element, path, IDLE_ELEMENTS[element.tag], file)
+            self._idle(node, path, IDLE_ELEMENTS[element.tag])
             return
-        if (id(element), "") not in self._used:
-            self.report.add(
-                "left out", f"<{element.tag}>", "it is not imported", element.place, file=file
-            )
+        if (id(element), "") not in self.used:
+            node.leave_out("it is not imported")
             return
         for name, text in element.attributes:
-            reason = self._idle_here.get((id(element), name))
-            if reason is None and (id(element), name) in self._used:
+            reason = self.idle_here.get((id(element), name))
+            if reason is None and (id(element), name) in self.used:
                 continue
             if name == "xmlns" or ":" in name:
                 continue
             reason = reason or IDLE.get((element.tag, name))
             if reason is None:
-                said = f"{name}={text!r} has no counterpart in the DSL"
-                self.report.add("left out", f"<{element.tag}>", said, element.place, file=file)
+                node.report("left out", f"{name}={text!r} has no counterpart in the DSL")
             else:
-                self._note(path, name, text, reason, element.place, file)
+                node.note(f"{path}/@{name}", text, reason)
         for child in element.children:
-            self._close(child, f"{path}/{child.tag}", file)
+            self._close(Node(child, self), f"{path}/{child.tag}")
 
-    def _idle(self, element: Element, path: str, reason: str, file: str) -> None:
+    def _idle(self, node: Node, path: str, reason: str) -> None:
+        element = node.element
         if not element.attributes and not element.children:
-            self._note(path, "", element.text or "", reason, element.place, file)
+            node.note(path, element.text or "", reason)
         for name, text in element.attributes:
-            if (id(element), name) not in self._used:
-                self._note(path, name, text, reason, element.place, file)
+            if (id(element), name) not in self.used:
+                node.note(f"{path}/@{name}", text, reason)
         for child in element.children:
-            self._idle(child, f"{path}/{child.tag}", reason, file)
-
-    def _note(
-        self, path: str, name: str, text: str, reason: str, place: Place | None, file: str
-    ) -> None:
-        at = ":".join(str(part) for part in (file, place) if part)
-        said = (f"{path}/@{name}" if name else path, text, reason, at)
-        if said not in self._noted:
-            self._noted.add(said)
-            self.report.idle.append(said)
+            self._idle(Node(child, self), f"{path}/{child.tag}", reason)
 
 
 class Node:
@@ -162,7 +127,6 @@ class Node:
     def __init__(self, element: Element, ledger: Ledger) -> None:
         self.element = element
         self._ledger = ledger
-        ledger.use(element)
 
     @property
     def tag(self) -> str:
@@ -177,7 +141,7 @@ class Node:
     @property
     def file(self) -> str:
         """The catalog that it is in."""
-        return self._ledger.file_of(self.element)
+        return self._ledger.files.get(id(self.element), "")
 
     def has(self, name: str) -> bool:
         """Whether an attribute is there; that alone does not use it."""
@@ -185,8 +149,12 @@ class Node:
 
     def text(self, name: str) -> str | None:
         """Return the text of an attribute."""
-        self._ledger.use(self.element, name)
+        self._ledger.used.add((id(self.element), name))
         return self.element.get(name)
+
+    def is_true(self, name: str) -> bool:
+        """Whether an attribute is true; one that is not there is false."""
+        return (self.text(name) or "false").lower() in ("true", "1")
 
     def said(self, name: str) -> str:
         """Return the text of an attribute, which has to be there.
@@ -194,14 +162,14 @@ class Node:
         Raises:
             Unresolved: It is not.
         """
-        self._ledger.use(self.element, name)
+        self._ledger.used.add((id(self.element), name))
         return self.element.said(name)
 
     def children(self, *tags: str) -> Iterator[Node]:
         """Yield the children with one of the tags; all of them without tags."""
         for child in self.element.children:
             if not tags or child.tag in tags:
-                yield Node(child, self._ledger)
+                yield self.other(child)
 
     def find(self, tag: str) -> Node | None:
         """Return the first child with a tag."""
@@ -220,7 +188,7 @@ class Node:
 
     def other(self, element: Element) -> Node:
         """Return another element of the document."""
-        return Node(element, self._ledger)
+        return self._ledger.node(element)
 
     @property
     def inner(self) -> Node:
@@ -229,7 +197,7 @@ class Node:
         Raises:
             Unresolved: There is none.
         """
-        return Node(self.element.inner, self._ledger)
+        return self.other(self.element.inner)
 
     def entry(self, element: Element, file: str) -> Node:
         """Return an entry of a catalog, of which all parts have to be used."""
@@ -239,27 +207,28 @@ class Node:
         """Note that attributes change nothing here; all that are there without names."""
         for name, _ in self.element.attributes:
             if not names or name in names:
-                self._ledger.set_idle(self.element, name, reason)
+                self._ledger.idle_here[id(self.element), name] = reason
 
     def use_all(self) -> None:
         """Note that all of it is used: it was read as a whole, or has been reported."""
-        self._ledger.use_all(self.element)
+        for each in self.element.walk():
+            names = ("", *(name for name, _ in each.attributes))
+            self._ledger.used.update((id(each), name) for name in names)
 
     def leave_out(self, reason: str) -> None:
         """Report that nothing says it."""
-        self._grade("left out", reason)
+        self.report("left out", reason)
         self.use_all()
 
     def approximate(self, reason: str, *, bound: float | None = None) -> None:
         """Report that it is only said nearly; `bound`: by so many metres at most."""
-        self._grade("approximated", reason, bound)
+        self.report("approximated", reason, bound)
 
-    def _grade(self, grade: str, reason: str, bound: float | None = None) -> None:
-        self._ledger.report.add(
-            "left out" if grade == "left out" else "approximated",
-            f"<{self.tag}>",
-            reason,
-            self.place,
-            file=self.file,
-            bound=bound,
-        )
+    def report(self, grade: Grade, reason: str, bound: float | None = None) -> None:
+        """Report how well it is said."""
+        found = (grade, f"<{self.tag}>", reason, self.place, self.file, bound)
+        self._ledger.report.add(Finding(*found))
+
+    def note(self, path: str, text: str, reason: str) -> None:
+        """Note that a text in it, at a path, changes nothing."""
+        self._ledger.report.note(path, text, reason, self.place, self.file)

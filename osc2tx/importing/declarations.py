@@ -9,77 +9,60 @@ from pathlib import Path
 from osc2tx.importing.cursor import Node
 from osc2tx.importing.dimensions import TYPES
 from osc2tx.importing.distributions import Open, meets
-from osc2tx.importing.document import Document
-from osc2tx.importing.expressions import Untyped
+from osc2tx.importing.expressions import Untyped, joined_by
 from osc2tx.importing.libraries import Shared
 from osc2tx.importing.parameters import Parameter
+from osc2tx.importing.place_conditions import COMPARISONS
 from osc2tx.importing.program import ROAD, Declared
 from osc2tx.importing.report import ImportReport
 from osc2tx.importing.values import Values
 from osc2tx.xosc import Element
 
-SIGNS = {
-    "lessThan": "<",
-    "greaterThan": ">",
-    "lessOrEqual": "<=",
-    "greaterOrEqual": ">=",
-    "equalTo": "==",
-    "notEqualTo": "!=",
-}
+
+def map_of(root: Node, values: Values, shared: Shared) -> list[Declared]:
+    """Return the declaration of the map of a document; of a type of the library if it has one."""
+    network, name = root.find("RoadNetwork"), ""
+    if network is None:
+        return []
+    for each in network.children():
+        if each.tag == "LogicFile" and not each.has("filepath"):
+            each.leave_out("it has no filepath")
+        elif each.tag == "LogicFile":
+            said, found = values.text(each, "filepath"), values.document.map_file
+            name = Path(said.replace("\\", "/")).name if found is None else found.name
+            if found is None and said:
+                each.approximate(f"the map {said} is not found: places on it were not checked")
+        elif each.tag != "SceneGraphFile":
+            each.leave_out("of the network only the map is imported")
+        if name:
+            break
+    if name and shared.is_used:
+        return [Declared(ROAD, shared.map_of(name))]
+    return [Declared(ROAD, "map", [f'it.map_file == "{name}"'] if name else [])]
 
 
 class Declarations:
-    """Writes what a document declares."""
+    """Writes the parameters of a document."""
 
     def __init__(
         self,
-        document: Document,
         root: Node,
         values: Values,
         report: ImportReport,
         open_: Mapping[str, Open],
         comments_of: Callable[[Element], list[str]],
-        shared: Shared,
     ) -> None:
         """Take the document.
 
         Args:
-            document: The document.
             root: Its root.
             values: Its parameters.
             report: Takes what is not said.
             open_: What its parameters may be in runs.
             comments_of: Gives the comments of an element.
-            shared: The library, which has the map as well if the scenario needs it.
         """
-        self._shared = shared
-        self._document, self._root, self._values = document, root, values
-        self._report, self._open, self._comments_of = report, open_, comments_of
-
-    def map(self) -> list[Declared]:
-        """Return the declaration of the map."""
-        network = self._root.find("RoadNetwork")
-        if network is None:
-            return []
-        for each in network.children():
-            if each.tag == "LogicFile":
-                if not each.has("filepath"):
-                    each.leave_out("it has no filepath")
-                    continue
-                said = self._values.text(each, "filepath")
-                found = self._document.map_file
-                name = Path(said.replace("\\", "/")).name if found is None else found.name
-                if found is None and said:
-                    each.approximate(f"the map {said} is not found: places on it were not checked")
-                if name and self._shared.is_used:
-                    return [Declared(ROAD, self._shared.map_of(name))]
-                if name:
-                    return [Declared(ROAD, "map", [f'it.map_file == "{name}"'])]
-            elif each.tag == "SceneGraphFile":
-                continue
-            else:
-                each.leave_out("of the network only the map is imported")
-        return [Declared(ROAD, "map")]
+        self._root, self._values, self._report = root, values, report
+        self._open, self._comments_of = open_, comments_of
 
     def parameters(self) -> list[Declared]:
         """Return those of the parameters that are read."""
@@ -98,26 +81,27 @@ class Declarations:
                     reason = "nothing reads it"
                     if said in self._values.aliases:
                         reason = "it repeats another one, in its unit or with a sign"
-                    place = nodes[said].place
-                    self._report.idle.append((f"parameter {said}", value, reason, str(place)))
+                    self._report.note(f"parameter {said}", value, reason, nodes[said].place)
         for holder in self._root.children("VariableDeclarations"):
             holder.use_all()
             for each in holder.children():
-                said_ = f"variable {each.element.get('name')}", each.element.get("value") or ""
-                self._report.idle.append((*said_, "variables are events here", str(each.place)))
+                what, value = (
+                    f"variable {each.element.get('name')}",
+                    each.element.get("value") or "",
+                )
+                self._report.note(what, value, "variables are events here", each.place)
         return found
 
     def _parameter(self, node: Node, parameter: Parameter) -> Declared:
         said = node.said("name")
         node.text("parameterType")
         node.text("value")
-        is_whole = parameter.kind not in ("double",)
-        kind = "int" if is_whole else TYPES[parameter.dimension]
+        kind = TYPES[parameter.dimension] if parameter.kind == "double" else "int"
         try:
             value = self._values.of_parameter(parameter)
         except Untyped:
             node.approximate("what gives it has no form here, so it has its nominal value")
-            value = self._values.in_unit(float(self._document.parameters[said]), parameter)
+            value = self._values.in_unit(float(self._values.document.parameters[said]), parameter)
         constraints, varied = self._constraints(node, parameter), ""
         if said in self._open:
             constraints = constraints if not self._is_kept(node, self._open[said]) else []
@@ -156,36 +140,20 @@ class Declarations:
         return True
 
     def _constraints(self, node: Node, parameter: Parameter) -> list[str]:
-        groups = []
-        for group in node.children("ConstraintGroup"):
-            told = [
-                text
-                for each in group.children("ValueConstraint")
-                if (text := self._constraint(each, parameter)) is not None
-            ]
-            groups.append(" and ".join(told))
-        if not all(groups):
-            return []
-        if len(groups) == 1:
-            return groups[0].split(" and ")
-        return (
-            [" or ".join(f"({each})" if " and " in each else each for each in groups)]
-            if groups
-            else []
-        )
+        groups = [
+            [self._constraint(each, parameter) for each in group.children("ValueConstraint")]
+            for group in node.children("ConstraintGroup")
+        ]
+        told = [list(filter(None, each)) for each in groups]
+        if len(told) == 1:
+            return told[0]
+        either = [" and ".join(each) for each in told]
+        return [joined_by("or", either)] if either and all(either) else []
 
     def _constraint(self, node: Node, parameter: Parameter) -> str | None:
         rule, text = node.said("rule"), node.said("value")
-        sign = SIGNS.get(rule)
         try:
-            if sign is None:
-                raise Untyped(rule)
-            expression = self._values.parsed(text)
-            if parameter.is_hourly:
-                return f"it {sign} {self._values._hourly(expression).text}"
-            if not text.startswith("$"):
-                return f"it {sign} {self._values.in_unit(float(text), parameter)}"
-            return f"it {sign} {self._values._typed(expression, parameter.dimension, 0.0).text}"
-        except (Untyped, ValueError):
+            return f"it {COMPARISONS[rule]} {self._values.as_parameter(text, parameter)}"
+        except (Untyped, KeyError, ValueError):
             node.leave_out(f"`{rule} {text}` has no form with units")
             return None

@@ -10,22 +10,25 @@ from osc2tx_shared.classes import dataclass
 
 
 class Dimension(NamedTuple):
-    """Exponents of metre, second and radian."""
+    """Exponents of metre, second and radian, and of kilometres per hour that are only counted."""
 
     m: int
     s: int
     rad: int
+    kph: int = 0
 
     def __mul__(self, other: Dimension) -> Dimension:  # type: ignore[override]
-        return Dimension(self.m + other.m, self.s + other.s, self.rad + other.rad)
+        return Dimension(*(a + b for a, b in zip(self, other, strict=True)))
 
     def __truediv__(self, other: Dimension) -> Dimension:
-        return Dimension(self.m - other.m, self.s - other.s, self.rad - other.rad)
+        return Dimension(*(a - b for a, b in zip(self, other, strict=True)))
 
 
 NUMBER, LENGTH, TIME = Dimension(0, 0, 0), Dimension(1, 0, 0), Dimension(0, 1, 0)
 SPEED, ACCELERATION = Dimension(1, -1, 0), Dimension(1, -2, 0)
 JERK, ANGLE = Dimension(1, -3, 0), Dimension(0, 0, 1)
+HOURLY = Dimension(0, 0, 0, 1)
+"""Of a number in kilometres per hour; divided by 3.6 it is a speed."""
 
 UNITS: Mapping[Dimension, tuple[tuple[str, float], ...]] = {
     LENGTH: (("m", 1.0),),
@@ -34,8 +37,9 @@ UNITS: Mapping[Dimension, tuple[tuple[str, float], ...]] = {
     ACCELERATION: (("mpss", 1.0),),
     JERK: (("mpspsps", 1.0),),
     ANGLE: (("deg", 0.017453292519943295), ("rad", 1.0)),
+    HOURLY: (("kph", 1.0),),
 }
-"""Units of the language that people write, with their SI values; the first is the usual one."""
+"""Units of the language that people write, with their values; the first is the usual one."""
 
 TYPES = {
     LENGTH: "length",
@@ -44,6 +48,7 @@ TYPES = {
     ACCELERATION: "acceleration",
     JERK: "jerk",
     ANGLE: "angle",
+    HOURLY: "speed",
     NUMBER: "float",
 }
 OF_SCHEMA = {

@@ -12,7 +12,7 @@ from dataclasses import field
 from itertools import chain, islice, product
 from types import MappingProxyType
 
-from osc2tx.importing.substitution import read_in
+from osc2tx.importing.substitution import read_in, values_in
 from osc2tx.xosc import Element, Place
 from osc2tx.xosc.arithmetic import evaluated
 from osc2tx.xosc.player.courses import RULES
@@ -146,7 +146,7 @@ class Distribution:
         """
         self.kept = kept
         declarations = [node for node in scenario.walk() if node.tag == "ParameterDeclaration"]
-        self.declared = {node.get("name") or "": node.get("value") or "" for node in declarations}
+        self.declared = values_in(declarations)
         self.constraints = [_Constraint(node) for node in declarations if node.children]
         if self.axes:
             own = [

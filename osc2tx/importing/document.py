@@ -10,6 +10,7 @@ from osc2tx.importing.reach import Reach
 from osc2tx.importing.substitution import (
     scoped,
     substituted,
+    values_in,
     with_each,
     with_plain_names,
     with_values,
@@ -32,13 +33,14 @@ class Refused(Exception):
     Attributes:
         reason: A sentence without full stop.
         place: Where that shows.
+        source: Its file; `None` for standard input.
     """
 
     def __init__(self, reason: str, place: Place | None = None) -> None:
         """Take what there is to say."""
         super().__init__(reason)
-        self.reason = reason
-        self.place = place
+        self.reason, self.place = reason, place
+        self.source: Path | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,7 +125,7 @@ class Document:
         """The texts of the parameters as they are given."""
         declarations = self.root.find(xml.ParameterDeclarations)
         nodes = () if declarations is None else declarations.all(xml.ParameterDeclaration)
-        return {node.get("name") or "": node.get("value") or "" for node in nodes}
+        return values_in(nodes)
 
     @cached_property
     def parameters(self) -> Mapping[str, str]:
@@ -147,10 +149,8 @@ class Document:
     def refused(self) -> list[tuple[Element, str]]:
         """The elements that name files which the document may not name, with reasons."""
         found: list[tuple[Element, str]] = []
-        network = self.root.find(xml.RoadNetwork)
-        logic = None if network is None else network.find(xml.LogicFile)
-        if logic is not None and self.map_file is None:
-            found.append((logic, self._problem(logic, "filepath", self._folders.maps)))
+        if self._logic is not None and self.map_file is None:
+            found.append((self._logic, self._problem(self._logic, "filepath", self._folders.maps)))
         for node in self.tagged("Directory"):
             found.append((node, self._problem(node, "path", self._folders.catalogs)))
         return [(node, problem) for node, problem in found if problem]
@@ -177,16 +177,10 @@ class Document:
         if found is None:
             return None
         entry, path = found
-        given = {
-            node.get("parameterRef") or "": node.get("value") or ""
-            for node in reference.below(xml.ParameterAssignment)
-        }
-        declared = {
-            node.get("name") or "": node.get("value") or ""
-            for node in entry.below(xml.ParameterDeclaration)
-        }
-        self.scoped += [(node, path.name) for node in entry.below(xml.ParameterDeclaration)]
-        values = declared | given
+        given = values_in(reference.below(xml.ParameterAssignment), "parameterRef")
+        declared = list(entry.below(xml.ParameterDeclaration))
+        self.scoped += [(node, path.name) for node in declared]
+        values = values_in(declared) | given
         children = [child for child in entry.children if child.tag != "ParameterDeclarations"]
         bare = entry.with_children(*children)
         return (substituted(bare, values) if values else bare), path
@@ -255,10 +249,14 @@ class Document:
     # --- the map ----------------------------------------------------------------------------------
 
     @cached_property
+    def _logic(self) -> Element | None:
+        network = self.root.find(xml.RoadNetwork)
+        return None if network is None else network.find(xml.LogicFile)
+
+    @cached_property
     def map_file(self) -> Path | None:
         """The file of the map; `None` if the document names none, or it is not found."""
-        network = self.root.find(xml.RoadNetwork)
-        logic = None if network is None else network.find(xml.LogicFile)
+        logic = self._logic
         named = "" if logic is None else self.text_at(logic.get("filepath") or "")
         if not named or _is_odd(named):
             return None

@@ -17,9 +17,16 @@ from osc2tx.importing.dimensions import (
     Quantity,
     literal,
 )
+from osc2tx.importing.document import Document
+from osc2tx.importing.ground import OnRoad
+from osc2tx.importing.libraries import Shared
+from osc2tx.importing.marks import Marks
 from osc2tx.importing.places import Places
+from osc2tx.importing.signals import TrafficLights
 from osc2tx.importing.statements import Statement
 from osc2tx.importing.values import Values
+from osc2tx.xosc.element import Unresolved
+from osc2tx.xosc.player.bodies import Body
 from osc2tx.xosc.player.courses import PEAK_RATES
 from osc2tx_shared.classes import dataclass
 
@@ -47,21 +54,29 @@ class Effect:
 
 @dataclass
 class Readings:
-    """What readers of actions share.
+    """What readers of actions and conditions share.
 
     Attributes:
-        values: The values of the document.
+        document: The document.
+        values: Its values.
         places: Its places.
         actors: The actors, by their names in the document.
+        lights: The traffic lights.
+        marks: The events that stand for variables.
+        shared: What the library has.
         lanes: The lanes in which actors are by now; `None`: not known.
         offsets: The offsets (m) last commanded, to the left.
         speeds: The speeds last commanded; `None`: not known.
         begin: Time (s) at which the event at hand starts, as far as times say it.
     """
 
+    document: Document
     values: Values
     places: Places
     actors: Mapping[str, Actor]
+    lights: TrafficLights
+    marks: Marks
+    shared: Shared
     lanes: dict[str, int | None] = field(default_factory=dict)
     offsets: dict[str, float] = field(default_factory=dict)
     speeds: dict[str, Quantity | None] = field(default_factory=dict)
@@ -69,12 +84,33 @@ class Readings:
 
 
 class Reader:
-    """Reads some actions of a document."""
+    """Reads some actions or conditions of a document."""
 
     def __init__(self, readings: Readings) -> None:
-        self._values, self._places, self._actors = readings.values, readings.places, readings.actors
+        self._document, self._values = readings.document, readings.values
+        self._places, self._actors = readings.places, readings.actors
+        self._lights, self._marks, self._shared = readings.lights, readings.marks, readings.shared
         self._lanes, self._speeds = readings.lanes, readings.speeds
         self._offsets, self._readings = readings.offsets, readings
+
+    def _actor(self, node: Node, name: str = "entityRef") -> Actor:
+        """Return the actor that an attribute names.
+
+        Raises:
+            Unresolved: There is none.
+        """
+        said = self._values.text(node, name)
+        if said not in self._actors:
+            raise Unresolved(f"there is no entity {said}", node.place)
+        return self._actors[said]
+
+    def _body(self, actor: Actor) -> Body | None:
+        """Return an actor where it is at the start."""
+        return self._places.bodies.get(actor.said)
+
+    def _on_road(self, actor: Actor) -> OnRoad | None:
+        """Return an actor with its lane at the start; `None`: it is in none, or without a map."""
+        return self._places.on_road(actor.said)
 
 
 def of_dynamics(node: Node) -> Dimension:

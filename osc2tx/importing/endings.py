@@ -157,7 +157,7 @@ def placed_beside(statement: Statement) -> set[str]:
 
 def single(waits: Waits) -> When | None:
     """Return the only condition that is waited for; `None`: there are others, or notes."""
-    if len(waits) != 1 or waits[0].label or waits[0].is_qualified or waits[0].comments:
+    if len(waits) != 1 or not waits[0].is_bare:
         return None
     return waits[0].does if isinstance(waits[0].does, When) else None
 

@@ -2,36 +2,54 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Mapping, Sequence
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
-from osc2tx.xosc.arithmetic import CONSTANTS
+from osc2tx.xosc.arithmetic import Evaluation
 from osc2tx_shared.classes import dataclass
-
-_TOKEN = re.compile(r"\s*(\$?[A-Za-z_]\w*|(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?|[-+*/(),%])")
 
 
 class Untyped(Exception):
     """An expression that has no form in the language; its value has."""
 
 
+class Term:
+    """An expression as an operand of others."""
+
+    __slots__ = ()
+
+    def __add__(self, other: Expression) -> Expression:
+        return _operation("+", self, other)
+
+    def __sub__(self, other: Expression) -> Expression:
+        return _operation("-", self, other)
+
+    def __mul__(self, other: Expression) -> Expression:
+        return _operation("*", self, other)
+
+    def __truediv__(self, other: Expression) -> Expression:
+        return _operation("/", self, other)
+
+    def __neg__(self) -> Expression:
+        return _operation("-", Number(0.0), self)
+
+
 @dataclass(frozen=True, slots=True)
-class Number:
+class Number(Term):
     """A number of an expression."""
 
     value: float
 
 
 @dataclass(frozen=True, slots=True)
-class Name:
+class Name(Term):
     """A parameter of an expression."""
 
     name: str
 
 
 @dataclass(frozen=True, slots=True)
-class Operation:
+class Operation(Term):
     """Two operands of an expression with their sign."""
 
     sign: str
@@ -42,92 +60,35 @@ class Operation:
 Expression: TypeAlias = Number | Name | Operation
 
 
+class _Terms(Evaluation[Any]):
+    """Sums and products as terms."""
+
+    def _literal(self, token: str) -> Number:
+        return Number(float(token))
+
+    def _named(self, name: str) -> Name:
+        return Name(name)
+
+
 def parsed(text: str) -> Expression:
     """Return the expression of an attribute.
 
     Raises:
         Untyped: It has none of sums, products, numbers and parameters.
     """
-    if text.startswith("${") and text.endswith("}"):
-        return _Parser(text[2:-1]).run()
-    if text.startswith("$"):
-        return Name(text[1:])
     try:
-        return Number(float(text))
-    except ValueError:
+        if text.startswith("${") and text.endswith("}"):
+            found: Expression = _Terms(text[2:-1], {}).run()
+            return found
+        return Name(text[1:]) if text.startswith("$") else Number(float(text))
+    except (ArithmeticError, ValueError):
         raise Untyped(text) from None
 
 
-class _Parser:
-    """Recursive descent over sums and products."""
-
-    def __init__(self, text: str) -> None:
-        self._tokens = _TOKEN.findall(text)
-        if "".join(self._tokens) != re.sub(r"\s", "", text):
-            raise Untyped(text)
-        self._at = 0
-        self._depth = 0
-
-    def run(self) -> Expression:
-        found = self._sum()
-        if self._at < len(self._tokens):
-            raise Untyped(self._next)
-        return found
-
-    @property
-    def _next(self) -> str:
-        return self._tokens[self._at] if self._at < len(self._tokens) else ""
-
-    def _sum(self) -> Expression:
-        value = self._product()
-        while self._next in ("+", "-"):
-            sign = self._take()
-            value = _operation(sign, value, self._product())
-        return value
-
-    def _product(self) -> Expression:
-        value = self._atom()
-        while self._next in ("*", "/"):
-            sign = self._take()
-            value = _operation(sign, value, self._atom())
-        return value
-
-    def _take(self) -> str:
-        token = self._next
-        self._at += 1
-        return token
-
-    def _atom(self) -> Expression:
-        self._depth += 1
-        token = self._take()
-        if self._depth > 50:
-            raise Untyped("too deep")
-        try:
-            if token in ("-", "+"):
-                inner = self._atom()
-                return inner if token == "+" else _operation("-", Number(0.0), inner)
-            if token == "(":
-                inner = self._sum()
-                if self._take() != ")":
-                    raise Untyped("(")
-                return inner
-            if token.startswith("$"):
-                return Name(token[1:])
-            if token in CONSTANTS:
-                return Number(CONSTANTS[token])
-            if token[:1].isdigit() or token[:1] == ".":
-                return Number(float(token))
-            raise Untyped(token)
-        finally:
-            self._depth -= 1
-
-
-def _operation(sign: str, left: Expression, right: Expression) -> Expression:
+def _operation(sign: str, left: Any, right: Any) -> Expression:
     """Return an operation, computed if both operands are numbers; its sign comes first."""
     if isinstance(left, Number) and isinstance(right, Number):
         a, b = left.value, right.value
-        if sign == "/" and b == 0.0:
-            raise Untyped("division by zero")
         computed = {"+": a + b, "-": a - b, "*": a * b}.get(sign)
         return Number(a / b if computed is None else computed)
     if sign in "*/":

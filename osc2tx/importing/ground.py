@@ -1,13 +1,14 @@
-"""What is known of a document before the run: its map, and its entities at the start."""
+"""What is known of a document before the run: its map, its entities, and what lies ahead."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
 
-from osc2tx.importing.cast import bodies_of
 from osc2tx.importing.cursor import Node
 from osc2tx.importing.document import Document
-from osc2tx.importing.starting import behind_teleports, privates, speed_at_start, teleports
+from osc2tx.xosc import elements as xml
 from osc2tx.xosc.element import Element, Unresolved
 from osc2tx.xosc.player.bodies import LATERAL, Body, Pose, body_of
 from osc2tx.xosc.player.errors import Unplayable
@@ -23,6 +24,25 @@ UNKNOWN = (Unplayable, Unresolved, MapError, ArithmeticError, ValueError, Lookup
 
 NO_ROADS = RoadMap(MapContent("", "", {}, {}, (), (), (), GeoReference(), {}, ()))
 """The map of a document without one."""
+
+
+class OnRoad(NamedTuple):
+    """An actor in a lane at the start.
+
+    Attributes:
+        body: The actor.
+        place: Its lane, and where it is in it.
+        map: The map.
+    """
+
+    body: Body
+    place: LanePosition
+    map: RoadMap
+
+    @property
+    def direction(self) -> int:
+        """The direction of travel of its lane: 1 along the road, -1 against it."""
+        return self.map.travel_direction(self.place.road, self.place.lane)
 
 
 class Ground:
@@ -48,7 +68,7 @@ class Ground:
 
     def _place_bodies(self) -> None:
         """Put the entities at their places of `Init`, references before what is beside them."""
-        for element in bodies_of(self._document):
+        for element in self._document.resolved_tagged("ScenarioObject"):
             try:
                 body = body_of(element)
             except UNKNOWN:
@@ -56,7 +76,7 @@ class Ground:
             self.bodies[body.name] = body
         waiting = {
             private.get("entityRef") or "": teleport
-            for private in privates(self._document.resolved)
+            for private in self._document.resolved_tagged("Private")
             for teleport in teleports(private)
         }
         for _ in range(len(waiting)):
@@ -76,7 +96,7 @@ class Ground:
     def _put_on_ways(self) -> None:
         """Put entities on the trajectories that they follow from the start on."""
         ways = Ways(Scene(self.bodies, self._roads, 0.0))
-        for private in privates(self._document.resolved):
+        for private in self._document.resolved_tagged("Private"):
             body = self.bodies.get(private.get("entityRef") or "")
             if body is None:
                 continue
@@ -89,6 +109,13 @@ class Ground:
                         continue
                     if run is not None:
                         body.actions[LATERAL] = run
+
+    def on_road(self, said: str) -> OnRoad | None:
+        """Return an entity with its lane; `None`: it is in none, or there is no map."""
+        body = self.bodies.get(said)
+        if body is None or body.place is None or self.map is None:
+            return None
+        return OnRoad(body, body.place, self.map)
 
     # --- places -----------------------------------------------------------------------------------
 
@@ -155,3 +182,105 @@ class Ground:
             return Pose(x + way * math.cos(h), y + way * math.sin(h), h)
         ahead = self._roads.advance(body.place, way * body.along, body.route)
         return self.pose_of(ahead.position)
+
+
+STRAIGHT = 1e-4  # rad
+LOOK, MOST_LOOKS = 10.0, 300  # m: how a lane is looked along where it is not even
+
+
+def teleports(private: Element) -> Sequence[Element]:
+    """Return the place at which an entity is put, if it is."""
+    actions = private.below(xml.TeleportAction)
+    return [place for action in actions for place in action.all(xml.Position)][-1:]
+
+
+def behind_teleports(private: Element) -> Iterator[Element]:
+    """Yield the elements of a private behind its last teleport, which ends ways before it."""
+    nodes = list(private.walk())
+    last = max((at for at, each in enumerate(nodes) if each.tag == "TeleportAction"), default=-1)
+    yield from nodes[last + 1 :]
+
+
+def speed_at_start(private: Element) -> float:
+    """Return the speed (m/s) that a resolved private sets; 0 if it is none by itself."""
+    speeds = [each for each in private.walk() if each.tag == "AbsoluteTargetSpeed"]
+    try:
+        return float(speeds[-1].get("value") or 0.0) if speeds else 0.0
+    except ValueError:
+        return 0.0
+
+
+def is_ahead(body: Body, other: Body) -> bool:
+    """Whether an entity begins ahead of another one."""
+    (x, y, h), there = other.here, body.here
+    return (there.x - x) * math.cos(h) + (there.y - y) * math.sin(h) > 0.0
+
+
+def is_straight_ahead(road_map: RoadMap | None, body: Body | None, *, beside: bool) -> bool:
+    """Whether the lane of an entity leads straight on from its place at the start.
+
+    Args:
+        road_map: The map.
+        body: The entity.
+        beside: Whether the lanes beside it have to as well, to which it may change.
+    """
+    if road_map is None or body is None or body.place is None:
+        return False
+    try:
+        return _is_straight(road_map, body.place, body, set() if beside else None)
+    except (MapError, LookupError):
+        return False
+
+
+def _is_straight(
+    road_map: RoadMap, place: LanePosition, body: Body, known: set[tuple[str, int]] | None
+) -> bool:
+    """Whether a lane leads straight on.
+
+    Args:
+        road_map: The map.
+        place: Where the lane begins to count.
+        body: The entity.
+        known: The lanes that are looked along already, if those beside each one count.
+    """
+    heading, cursor = road_map.pose(place).h, road_map.cursor()
+    for _ in range(MOST_LOOKS):
+        for other in () if known is None else _beside(road_map, place, body.along, known):
+            if not _is_straight(road_map, other, body, known):
+                return False
+        look, even = LOOK, cursor.stretch(place._replace(offset=0.0))
+        if even is not None and even.curvature == 0.0:
+            is_along_s = even.direction * body.along > 0
+            look = max(LOOK, even.end - place.s if is_along_s else place.s - even.begin)
+        ahead = road_map.advance(place, look * body.along)
+        place = ahead.position
+        if abs(wrapped(road_map.pose(place).h - heading)) > STRAIGHT:
+            return False
+        if abs(ahead.travelled) < look:
+            return True
+    return False
+
+
+def _beside(
+    road_map: RoadMap, place: LanePosition, along: int, known: set[tuple[str, int]]
+) -> Iterator[LanePosition]:
+    """Yield where other lanes of the same direction begin on the rest of a road, if not known.
+
+    Those of exits begin behind the place.
+    """
+    known.add((place.road, place.lane))
+    goes_up = road_map.travel_direction(place.road, place.lane) * along > 0
+    for section in road_map.roads[place.road].sections:
+        if section.end <= place.s if goes_up else section.begin > place.s:
+            continue
+        s = max(section.begin, place.s) if goes_up else min(section.end, place.s)
+        for lane in section.lanes.values():
+            is_beside = lane.id * place.lane > 0 and lane.type == "driving"
+            if is_beside and (place.road, lane.id) not in known:
+                known.add((place.road, lane.id))
+                yield LanePosition(place.road, lane.id, s)
+
+
+def wrapped(angle: float) -> float:
+    """Return an angle (rad) between -pi and pi."""
+    return math.atan2(math.sin(angle), math.cos(angle))

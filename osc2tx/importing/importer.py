@@ -8,15 +8,16 @@ from pathlib import Path
 
 from osc2tx.importing.actions import Actions
 from osc2tx.importing.board import BoardReader
-from osc2tx.importing.carla import is_of_carla, mirrored
 from osc2tx.importing.cast import Cast
 from osc2tx.importing.conditions import Conditions
 from osc2tx.importing.cursor import Ledger
-from osc2tx.importing.declarations import Declarations
+from osc2tx.importing.declarations import Declarations, map_of
 from osc2tx.importing.distributions import NOTHING, Distribution, Open
 from osc2tx.importing.document import NOWHERE, Document, Folders, Refused
+from osc2tx.importing.effects import Readings
 from osc2tx.importing.endings import placed_beside
 from osc2tx.importing.expressions import Untyped
+from osc2tx.importing.ground import is_straight_ahead
 from osc2tx.importing.headers import header_of
 from osc2tx.importing.libraries import COMMON, Library, Shared
 from osc2tx.importing.marks import Marks
@@ -24,13 +25,12 @@ from osc2tx.importing.names import Names
 from osc2tx.importing.parameters import Parameter
 from osc2tx.importing.places import Places
 from osc2tx.importing.program import ROAD, Declared, Program, read_by
-from osc2tx.importing.report import ImportReport
+from osc2tx.importing.report import Finding, ImportReport
 from osc2tx.importing.signals import CONTROLLER, TrafficLights
-from osc2tx.importing.starting import is_straight_ahead
 from osc2tx.importing.starts import Starts
 from osc2tx.importing.structure import Structure
-from osc2tx.importing.substitution import with_values
-from osc2tx.importing.surroundings import ENVIRONMENT, Surroundings
+from osc2tx.importing.substitution import is_of_carla, mirrored, with_values
+from osc2tx.importing.surroundings import ENVIRONMENT
 from osc2tx.importing.values import Values
 from osc2tx.importing.whole import Whole, is_endless
 from osc2tx.xosc import Element, Unreadable, read
@@ -56,6 +56,8 @@ class Imported:
         actors: The names of the actors by those in the document.
         is_endless: Whether nothing ends the document.
         starts: Road, lane and s (m) at which the scenario puts actors first of all.
+        source: Its file; `None` for standard input.
+        distribution: Values for its runs.
     """
 
     program: Program
@@ -65,6 +67,8 @@ class Imported:
     actors: dict[str, str]
     is_endless: bool
     starts: dict[str, tuple[str, int, float]]
+    source: Path | None = None
+    distribution: Distribution | None = None
 
     @property
     def name(self) -> str:
@@ -151,7 +155,7 @@ class _Import:
         library.scenarios.add(self._scenario)
         self._values = Values(document, self._names, self._open or varied)
         self._shared = Shared(library)
-        self._cast = Cast(document, self._values, self._ledger, self._names, self._shared)
+        self._cast = Cast(document, self._values, self._names, self._shared)
         self._marks = Marks(document, self._names, self._report)
         self._told: set[str] = set()
         self._comments: dict[object, list[str]] = {}
@@ -173,26 +177,19 @@ class _Import:
                     each.leave_out(getattr(error, "reason", str(error)))
         self._cast.share()
         actors = self._cast.actors
-        kinds = {said: actor.name for said, actor in actors.items()}
-        places = Places(self._document, self._values, self._names, kinds)
+        names = {said: actor.name for said, actor in actors.items()}
+        places = Places(self._document, self._values, self._names, names)
         leaves = bool(self._document.resolved_tagged("LaneChangeAction"))
         for said, actor in actors.items():
             body = places.bodies.get(said)
             actor.is_free = is_straight_ahead(places.map, body, beside=leaves)
         lights = TrafficLights(places.map, self._values, self._names)
-        surroundings = Surroundings(self._values, self._document, self._shared, lights, self._marks)
-        actions = Actions(self._document, self._values, places, actors, surroundings)
-        conditions = Conditions(
-            self._values,
-            places,
-            actors,
-            lights,
-            self._marks,
-            self._document.parameters.get,
-            {node.said("parameterRef") for node in self._document.tagged("ParameterAction")},
+        readings = Readings(
+            self._document, self._values, places, actors, lights, self._marks, self._shared
         )
+        actions, conditions = Actions(readings), Conditions(readings)
         storyboard = self._root.one("Storyboard")
-        inits = Starts(storyboard, self._values, places, actions, self._cast)
+        inits = Starts(storyboard, actions, self._cast)
         reader = BoardReader(self._values, self._names, actions, conditions, self._comments_of)
         board = reader.read(storyboard)
         structure = Structure(
@@ -203,7 +200,7 @@ class _Import:
         whole = Whole(self._document, self._cast, self._names, self._report, self._shared)
         program.body = whole.behavior(structure, structure.branches(), inits, board.end)
         self._find_used(program, places, structure)
-        self._declare(program, places, surroundings, lights, structure)
+        self._declare(program, readings, actions, structure)
         program.imports = [COMMON] if self._shared.is_used else []
         self._report.under_test = [each.name for each in actors.values() if each.is_under_test]
         for step in structure.events:
@@ -217,9 +214,9 @@ class _Import:
             self._report,
             self._document,
             parameters,
-            kinds,
+            names,
             is_endless(board.end),
-            inits.starts(places, placed_beside(program.body)),
+            inits.starts(placed_beside(program.body)),
         )
 
     # --- declarations -----------------------------------------------------------------------------
@@ -231,7 +228,7 @@ class _Import:
         if is_of_carla(self._document.root):
             note = "places of the world are in the coordinates of CARLA; they are mirrored"
             said = header.text("description") or ""
-            self._report.idle.append(("description", said, note, str(header.place)))
+            self._report.note("description", said, note, header.place)
         return header_of(header, self._scenario) + self._comments.pop(None, [])
 
     def _comments_of(self, element: Element) -> list[str]:
@@ -248,7 +245,7 @@ class _Import:
 
     def _leave(self, comment: str, reason: str) -> None:
         """Note that the scenario does not have a comment."""
-        self._report.idle.append(("comment", comment, reason, ""))
+        self._report.note("comment", comment, reason)
 
     def _find_used(self, program: Program, places: Places, structure: Structure) -> None:
         """Note which parameters the scenario reads, itself or in what gives others."""
@@ -266,25 +263,14 @@ class _Import:
                     continue
 
     def _declare(
-        self,
-        program: Program,
-        places: Places,
-        surroundings: Surroundings,
-        lights: TrafficLights,
-        structure: Structure,
+        self, program: Program, readings: Readings, actions: Actions, structure: Structure
     ) -> None:
         """Write what the behavior of a program reads."""
-        declared = Declarations(
-            self._document,
-            self._root,
-            self._values,
-            self._report,
-            self._open,
-            self._comments_of,
-            self._shared,
+        lights, declared = readings.lights, Declarations(
+            self._root, self._values, self._report, self._open, self._comments_of
         )
-        members = declared.map()
-        if surroundings.needs_environment:
+        members = map_of(self._root, self._values, self._shared)
+        if actions.surroundings.needs_environment:
             members.append(Declared(ENVIRONMENT, "environment"))
         if lights.is_switched:
             members.append(Declared(CONTROLLER, "traffic_light_controller"))
@@ -298,7 +284,7 @@ class _Import:
         words = _words("\n".join(program.behavior))
         program.parameters = [
             *declared.parameters(),
-            *read_by(places.points.declared, words),
+            *read_by(readings.places.points.declared, words),
             *self._marks.members(words),
             *read_by(structure.declared, words),
         ]
@@ -306,13 +292,11 @@ class _Import:
     def _close(self) -> None:
         root = self._document.root
         for each, file in self._document.scoped:
-            said = f"{each.get('parameterType')} {each.get('value')}"
-            at = ":".join(str(part) for part in (file, each.place) if part)
-            note = (f"parameter {each.get('name')}", said, "its value stands where it is used", at)
-            if note not in self._report.idle:
-                self._report.idle.append(note)
+            what, said = f"parameter {each.get('name')}", f"{each.get('parameterType')}"
+            said = f"{said} {each.get('value')}"
+            self._report.note(what, said, "its value stands where it is used", each.place, file)
         for node, reason in self._document.refused:
-            self._report.add("left out", f"<{node.tag}>", reason, node.place)
+            self._report.add(Finding("left out", f"<{node.tag}>", reason, node.place))
         version = version_of(root)
         found = [(each.reason, str(each.place or "")) for each in problems(root, version)]
         for entry, file in self._ledger.entries:

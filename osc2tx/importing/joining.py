@@ -166,7 +166,7 @@ def _followed_inside(
     if ends and ends <= delays.keys() and not any(delays.values()):
         return list(members)
     timed = [each for each in last.members if not is_open(each)]
-    if last.does != "parallel" or last.is_qualified or last.label or len(timed) != 1:
+    if last.does != "parallel" or not last.is_plain or len(timed) != 1:
         return None
     inner = _followed(timed[0].members or [timed[0]], delays)
     if inner is None:

@@ -90,33 +90,24 @@ class Shared:
         self._library = library
         self.is_used = False
 
-    def type_of(self, path: Path, said: str) -> Entry | None:
-        """Return the type of actors that there is for an entry of a catalog."""
-        return self._known((path, said))
+    def known(self, *key: Path | str) -> Entry | None:
+        """Return what the library has by a key."""
+        found = self._library.entries.get(key)
+        self.is_used |= found is not None
+        return found
 
-    def new_type(self, path: Path, said: str, kind: str, base: str, body: Sequence[str]) -> Entry:
-        """Return a new type of actors.
-
-        Args:
-            path: The catalog.
-            said: The entry.
-            kind: The type whose actions it has.
-            base: What it inherits.
-            body: What it declares.
-        """
-        return self._typed((path, said), said, kind, base, body)
-
-    def own_type(self, said: str, kind: str, base: str, body: Sequence[str]) -> Entry:
-        """Return the type of an entity that is in no catalog; alike ones of a name share it.
+    def type_of(self, key: Key, said: str, kind: str, base: str, body: Sequence[str]) -> Entry:
+        """Return the type of actors by a key, a new one if there is none yet.
 
         Args:
+            key: A catalog and its entry; of an entity that is in none, all that is said of it.
             said: What it is called.
             kind: The type whose actions it has.
             base: What it inherits.
             body: What it declares.
         """
-        key: Key = (said, base, *body)
-        return self._known(key) or self._typed(key, said, kind, base, body)
+        head = f"actor {{}} inherits {base}:"
+        return self._entry(key, said, kind, "entity type", (head, *_indented(body, 1)))
 
     def behavior(self, path: Path, said: str, actor: str, calls: Sequence[str]) -> Entry:
         """Return what an actor does.
@@ -127,21 +118,13 @@ class Shared:
             actor: The type of the actor.
             calls: What it does, one after the other.
         """
-        key: Key = (path, said, *calls)
-        if known := self._known(key):
-            return known
-        name = self._new(said, actor, actions_of(actor))
-        lines = [f"scenario {actor}.{name}:", f"{INDENT}do serial:", *_indented(calls, 2)]
-        return self._add(key, Entry(name, actor), lines)
+        lines = (f"scenario {actor}.{{}}:", f"{INDENT}do serial:", *_indented(calls, 2))
+        return self._entry((path, said, *calls), said, actor, actor, lines, actions_of(actor))
 
     def map_of(self, file: str) -> str:
         """Return the type of a map by the name of its file."""
-        known = self._known((file,))
-        if known is None:
-            name = self._new(f"{Path(file).stem}_map", "type")
-            lines = [f"actor {name} inherits map:", f'{INDENT}keep(map_file == "{file}")']
-            known = self._add((file,), Entry(name, "map"), lines)
-        return known.name
+        lines = ("actor {} inherits map:", f'{INDENT}keep(map_file == "{file}")')
+        return self._entry((file,), f"{Path(file).stem}_map", "map", "type", lines).name
 
     def add_start(self, name: str) -> None:
         """Add a way in which actors begin."""
@@ -153,26 +136,32 @@ class Shared:
             *_indented(STARTS[name], 2),
         )
 
-    def _typed(self, key: Key, said: str, kind: str, base: str, body: Sequence[str]) -> Entry:
-        name = self._new(said, "entity type")
-        lines = [f"actor {name} inherits {base}:", *_indented(body, 1)]
-        return self._add(key, Entry(name, kind), lines)
+    def _entry(
+        self,
+        key: Key,
+        said: str,
+        kind: str,
+        word: str,
+        lines: Sequence[str],
+        taken: Iterable[str] = (),
+    ) -> Entry:
+        """Return what the library has by a key, or else a new declaration.
 
-    def _known(self, key: Key) -> Entry | None:
-        found = self._library.entries.get(key)
-        self.is_used |= found is not None
-        return found
-
-    def _new(self, said: str, word: str, taken: Iterable[str] = ()) -> str:
-        """Return the name for a new entry."""
+        Args:
+            key: The key.
+            said: What it is called in the document.
+            kind: What its actions are of.
+            word: What tells it from a word of the language, at the end of its name.
+            lines: Its declaration; the first line has `{}` where its name stands.
+            taken: Names that it cannot have, besides those of the library.
+        """
+        if known := self.known(*key):
+            return known
         library = self._library
-        taken = {*STARTS, *library.lines, *library.scenarios, *taken}
-        return Names(ImportReport(""), taken).new(said, kind=word)
-
-    def _add(self, key: Key, entry: Entry, lines: Sequence[str]) -> Entry:
-        self._library.lines[entry.name] = lines
-        self._library.entries[key] = entry
-        self.is_used = True
+        names = Names(ImportReport(""), {*STARTS, *library.lines, *library.scenarios, *taken})
+        entry = Entry(names.new(said, kind=word), kind)
+        library.lines[entry.name] = (lines[0].format(entry.name), *lines[1:])
+        library.entries[key], self.is_used = entry, True
         return entry
 
 

@@ -8,14 +8,26 @@ from __future__ import annotations
 
 import re
 from collections import defaultdict
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 
-from osc2tx.importing.dimensions import ANGLE, NUMBER, UNITS, Dimension
+from osc2tx.importing.dimensions import (
+    ACCELERATION,
+    ANGLE,
+    HOURLY,
+    LENGTH,
+    NUMBER,
+    OF_SCHEMA,
+    SPEED,
+    TIME,
+    UNITS,
+    Dimension,
+)
 from osc2tx.importing.distributions import Open
 from osc2tx.importing.document import Document
 from osc2tx.importing.expressions import (
     Expression,
     Name,
+    Number,
     Operation,
     Untyped,
     is_per_hour,
@@ -23,9 +35,9 @@ from osc2tx.importing.expressions import (
     substituted,
     without_sign,
 )
-from osc2tx.importing.inference import Votes, uses_in, vote
 from osc2tx.importing.names import Names, shortened, snake
-from osc2tx.xosc import Element
+from osc2tx.xosc.element import Element
+from osc2tx.xosc.schema import attributes_of
 from osc2tx_shared.classes import dataclass
 
 _UNIT = re.compile(r"_(kph|mps|mps2|mpss|m|s|deg|rad|kmh)$")
@@ -39,7 +51,6 @@ class Parameter:
         name: Its name in the scenario.
         kind: Its type in the document.
         dimension: What its uses say that it is.
-        is_hourly: Whether its number counts kilometres per hour.
         expression: What gives it; `None` for texts and truth values.
         is_used: Whether the scenario reads it.
     """
@@ -47,14 +58,13 @@ class Parameter:
     name: str
     kind: str
     dimension: Dimension = NUMBER
-    is_hourly: bool = False
     expression: Expression | None = None
     is_used: bool = False
 
     @property
     def unit(self) -> tuple[str, float]:
         """The unit of its number, with its SI value."""
-        if self.is_hourly:
+        if self.dimension == HOURLY:
             return "kph", 1.0 / 3.6
         if self.dimension == ANGLE:
             return "rad", 1.0
@@ -111,7 +121,7 @@ class Parameters:
         while (count := sum(map(len, votes.values()))) > before:
             before = count
             for expression, dimension in uses:
-                vote(expression, dimension, False, votes)
+                vote(expression, dimension, votes)
             self._take(votes)
 
     def _take(self, votes: Votes) -> None:
@@ -119,9 +129,9 @@ class Parameters:
         for said, parameter in reversed(self.by_name.items()):
             found = votes[said]
             if len(found) == 1 and parameter.kind == "double":
-                parameter.dimension, parameter.is_hourly = next(iter(found))
+                (parameter.dimension,) = found
             if parameter.expression is not None and parameter.dimension != NUMBER:
-                vote(parameter.expression, parameter.dimension, parameter.is_hourly, votes)
+                vote(parameter.expression, parameter.dimension, votes)
 
     def _find_aliases(self) -> None:
         """Find the parameters that only say others once more, in another unit or with a sign."""
@@ -137,7 +147,7 @@ class Parameters:
             other = self.by_name.get(inner.name) if isinstance(inner, Name) else None
             if other is None or other.kind != parameter.kind:
                 continue
-            if parameter.dimension == other.dimension and other.is_hourly == is_hourly:
+            if other.dimension == (HOURLY if is_hourly else parameter.dimension):
                 self.aliases[said] = node
         for parameter in self.by_name.values():
             if parameter.expression is not None:
@@ -159,3 +169,89 @@ class Parameters:
         except ValueError:  # several limits together, or an expression
             return None
         return set(found) if found and len(found) == len(groups) else None
+
+
+Votes = dict[str, set[Dimension]]
+"""What the uses of parameters say, by their names."""
+
+
+def uses_in(root: Element) -> list[tuple[Expression, Dimension]]:
+    """Return the expressions of attributes that the schema gives a dimension."""
+    given = [node for node in root.walk() if "$" in [text[:1] for _, text in node.attributes]]
+    return [each for node in given for each in _uses_at(node)]
+
+
+def _uses_at(node: Element) -> Iterator[tuple[Expression, Dimension]]:
+    parts = attributes_of(node.tag) if not node.tag.startswith("Parameter") else {}
+    for name, text in node.attributes:
+        dimension = dimension_of(node, name) if text.startswith("$") and name in parts else None
+        if dimension is None:
+            continue
+        try:
+            yield parsed(text), dimension
+        except Untyped:
+            continue
+
+
+def dimension_of(node: Element, name: str) -> Dimension | None:
+    """Return the dimension of an attribute; `None` if the schema says none."""
+    part = attributes_of(node.tag).get(name)
+    if part is None or part.type != "Double":
+        return None
+    if node.tag.endswith("Dynamics") and name == "value":
+        rate = ACCELERATION if node.tag == "SpeedActionDynamics" else SPEED
+        by = {"time": TIME, "distance": LENGTH, "rate": rate}
+        return by.get(node.get("dynamicsDimension") or "")
+    if node.tag == "RelativeTargetSpeed":
+        return SPEED if node.get("speedTargetValueType") != "factor" else NUMBER
+    return OF_SCHEMA.get(part.unit) if part.unit else None
+
+
+def vote(node: Expression, dimension: Dimension, votes: Votes) -> None:
+    """Note what an expression of a dimension says about its parameters."""
+    if isinstance(node, Name):
+        votes[node.name].add(dimension)
+    elif isinstance(node, Operation):
+        if dimension == SPEED and is_per_hour(node):
+            vote(node.left, HOURLY, votes)
+        elif node.sign in "+-":
+            vote(node.left, dimension, votes)
+            vote(node.right, dimension, votes)
+        else:
+            _vote_in_product(node, dimension, votes)
+
+
+def _vote_in_product(node: Operation, dimension: Dimension, votes: Votes) -> None:
+    """A number times something is of its dimension, unless that is a speed by itself.
+
+    Of two factors the one whose dimension is known says that of the other one.
+    """
+    left, right = known(node.left, votes), known(node.right, votes)
+    if left is None and right is not None:
+        vote(node.left, dimension / right if node.sign == "*" else dimension * right, votes)
+    elif right is None and left is not None:
+        vote(node.right, dimension / left if node.sign == "*" else left / dimension, votes)
+    for side, other in ((node.left, node.right), (node.right, node.left)):
+        if is_per_hour(side):
+            vote(side, SPEED, votes)
+        elif isinstance(other, Number) and (node.sign == "*" or side is node.left):
+            vote(side, dimension, votes)
+
+
+def known(node: Expression, votes: Votes) -> Dimension | None:
+    """Return the dimension that votes give an expression; `None`: none, or several."""
+    if isinstance(node, Number):
+        return None
+    if isinstance(node, Name):
+        found = votes.get(node.name, set())
+        return next(iter(found)) if len(found) == 1 and HOURLY not in found else None
+    if is_per_hour(node):
+        return SPEED
+    left, right = known(node.left, votes), known(node.right, votes)
+    if node.sign in "+-":
+        return right if left is None else left
+    if isinstance(node.right, Number):
+        return left
+    if left is None or right is None:
+        return right if isinstance(node.left, Number) and node.sign == "*" else None
+    return left * right if node.sign == "*" else left / right

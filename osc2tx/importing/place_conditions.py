@@ -8,9 +8,7 @@ from collections.abc import Mapping
 from osc2tx.importing.cast import Actor
 from osc2tx.importing.cursor import Node
 from osc2tx.importing.dimensions import LENGTH, PRODUCT, SUM, TIME, Quantity, literal, total
-from osc2tx.importing.places import Places
-from osc2tx.importing.values import Values
-from osc2tx.xosc.element import Element
+from osc2tx.importing.effects import Reader
 from osc2tx.xosc.player.distances import asked
 from osc2tx_runtime.opendrive import LanePosition
 
@@ -27,11 +25,8 @@ ANYWHERE = 1000.0  # m: so far away is only what tells the side of something els
 ROUNDING = 1e-6  # m
 
 
-class PlaceConditions:
+class PlaceConditions(Reader):
     """Reads conditions on the distance to a place."""
-
-    def __init__(self, values: Values, places: Places, actors: Mapping[str, Actor]) -> None:
-        self._values, self._places, self._actors = values, places, actors
 
     def reached(self, node: Node, a: str) -> str | None:
         """Return the condition that an actor is at a place."""
@@ -47,32 +42,30 @@ class PlaceConditions:
         if point is None:
             return None
         node.approximate("the distance to a position is the Euclidean one")
-        mode = ", bounding_boxes" if _is_free(node) else ""
         time = self._values.quantity(node, "value", TIME).within(PRODUCT)
-        measure = f"{a}.distance_to_xyz_point({point}, euclidean{mode})"
+        measure = f"{a}.distance_to_xyz_point({point}, euclidean{boxes(node)})"
         return f"{measure} {COMPARISONS[node.said('rule')]} {time} * {a}.speed"
 
-    def far(self, node: Node, said: str, a: str) -> str | None:
+    def far(self, node: Node, actor: Actor) -> str | None:
         """Return the condition on how far an actor is from a place."""
         for name in ("coordinateSystem", "alongRoute", "routingAlgorithm", "relativeDistanceType"):
             node.text(name)
         kind, system = asked(self._places.resolved(node))
         if kind == "longitudinal" and system in ("road", "lane"):
-            found = self._along_road(node, said, a)
+            found = self._along_road(node, actor)
         elif kind in ("longitudinal", "lateral") and system == "entity":
-            found = self._beside_another(node, said, a, kind)
+            found = self._beside_another(node, actor, kind)
         else:
             found = None
         if found is not None:
             return found
-        point = self._point(node, a)
+        point = self._point(node, actor.name)
         if point is None:
             return None
         if kind in ("longitudinal", "lateral"):
             node.approximate("the distance to a position is the Euclidean one")
-        mode = ", bounding_boxes" if _is_free(node) else ""
         value = self._values.quantity(node, "value", LENGTH)
-        measure = f"{a}.distance_to_xyz_point({point}, euclidean{mode})"
+        measure = f"{actor.name}.distance_to_xyz_point({point}, euclidean{boxes(node)})"
         return f"{measure} {COMPARISONS[node.said('rule')]} {value.within(SUM)}"
 
     def _point(self, node: Node, a: str) -> str | None:
@@ -93,27 +86,24 @@ class PlaceConditions:
 
     # --- places on a road -------------------------------------------------------------------------
 
-    def _along_road(self, node: Node, said: str, a: str) -> str | None:
+    def _along_road(self, node: Node, actor: Actor) -> str | None:
         """Return the condition on s, for an actor on the road of the place."""
-        body, road_map = self._places.bodies.get(said), self._places.map
-        place = self._on_road(self._places.resolved(node.one("Position")))
-        if body is None or body.place is None or road_map is None or _is_free(node):
-            return None
-        if place is None or place[0] != body.place.road:
+        here, place = self._on_road(actor), self._s_of(node.one("Position"))
+        if here is None or place is None or boxes(node) or place[0] != here.place.road:
             return None
         self._take_place(node)
         road, begin = place
         sign, value = COMPARISONS[node.said("rule")], self._values.quantity(node, "value", LENGTH)
         at = Quantity(literal(round(begin, 6), LENGTH), begin)
         beyond, before = total(LENGTH, (1, at), (1, value)), total(LENGTH, (1, at), (-1, value))
-        direction = road_map.travel_direction(road, body.place.lane) * body.along
-        apart = (body.place.s - begin) * direction
-        s = f"{a}.get_s_coord()"
+        direction = here.direction * here.body.along
+        apart = (here.place.s - begin) * direction
+        s = f"{actor.name}.get_s_coord()"
         up = f"{s} {sign} {beyond.within(SUM)}"
         down = f"{s} {MIRRORED[sign]} {before.within(SUM)}"
         if begin < ROUNDING or (sign.startswith(">") and apart >= 0.0 and direction > 0):
             return up  # it never is on the other side
-        if begin > road_map.roads[road].length - ROUNDING:
+        if begin > here.map.roads[road].length - ROUNDING:
             return down
         if sign.startswith(">") and apart >= 0.0:
             return down
@@ -121,8 +111,9 @@ class PlaceConditions:
             return down if direction > 0 else up  # it is met before the actor is there
         return f"{up} {'and' if sign.startswith('<') else 'or'} {down}"
 
-    def _on_road(self, position: Element) -> tuple[str, float] | None:
-        """Return the road of a place, and how far along it is (m)."""
+    def _s_of(self, node: Node) -> tuple[str, float] | None:
+        """Return the road of a position, and how far along it is (m)."""
+        position = self._places.resolved(node)
         if position.inner.tag == "RoadPosition":
             return position.inner.said("roadId"), float(position.inner.said("s"))
         place = self._places.known(position)
@@ -130,18 +121,16 @@ class PlaceConditions:
 
     # --- places beside another actor --------------------------------------------------------------
 
-    def _beside_another(self, node: Node, said: str, a: str, kind: str) -> str | None:
+    def _beside_another(self, node: Node, actor: Actor, kind: str) -> str | None:
         """Return the condition on the distance of another actor, far beyond which the place is.
 
         XML measures without signs; a place that is far beyond gives the distance one.
         """
         position = self._places.resolved(node.one("Position")).inner
-        body, other = self._places.bodies.get(said), self._actors.get(
-            position.get("entityRef") or ""
-        )
+        body, other = self._body(actor), self._actors.get(position.get("entityRef") or "")
         if position.tag != "RelativeWorldPosition" or body is None or other is None:
             return None
-        if body.pose is None or _is_free(node):
+        if body.pose is None or boxes(node):
             return None
         dx, dy = float(position.get("dx") or 0.0), float(position.get("dy") or 0.0)
         h = body.pose.h + (0.5 * math.pi if kind == "lateral" else 0.0)
@@ -150,14 +139,15 @@ class PlaceConditions:
         if abs(shift) < ANYWHERE or value.is_open:
             return None
         self._take_place(node)
-        if self._actors[said].kind == "vehicle":
+        if actor.kind == "vehicle":
             node.approximate("the heading of the actor is that of its start")
         sign, limit = COMPARISONS[node.said("rule")], value.value - abs(shift)
         if shift < 0.0:
             sign, limit = MIRRORED[sign], -limit
         text = literal(round(limit, 3) + 0.0, LENGTH)
-        return f"{a}.object_distance({other.name}, {kind}) {sign} {text}"
+        return f"{actor.name}.object_distance({other.name}, {kind}) {sign} {text}"
 
 
-def _is_free(node: Node) -> bool:
-    return (node.text("freespace") or "false").lower() in ("true", "1")
+def boxes(node: Node, name: str = "freespace") -> str:
+    """Return the argument with which a distance counts between boxes; `""`: it does not."""
+    return ", bounding_boxes" if node.is_true(name) else ""

@@ -14,10 +14,9 @@ from osc2tx.importing.courses import Courses
 from osc2tx.importing.cursor import Node
 from osc2tx.importing.dimensions import LENGTH, literal
 from osc2tx.importing.document import Document
-from osc2tx.importing.ground import Ground
+from osc2tx.importing.ground import STRAIGHT, Ground, wrapped
 from osc2tx.importing.names import Names
-from osc2tx.importing.points import Points, Spot, degrees, heading_of, odr_point
-from osc2tx.importing.starting import STRAIGHT, wrapped
+from osc2tx.importing.points import Points, Spot, degrees, heading_of, odr_point, point_of
 from osc2tx.importing.values import Values
 from osc2tx.xosc.player.bodies import Pose
 from osc2tx.xosc.player.places import offset_of
@@ -183,9 +182,7 @@ class Places(Ground):
         inner.use_all()
         where, heading = found
         if isinstance(where, LanePosition) and self.map is not None:
-            t = where.offset * self.map.travel_direction(where.road, where.lane)
-            at = literal(where.s, LENGTH), literal(t, LENGTH)
-            text = odr_point(where.road, str(where.lane), *at)
+            text = point_of(where, self.map)
             return Spot(text, yaw="" if heading is None else heading_of(heading))
         assert isinstance(where, Pose)
         pose = where if heading is None else where._replace(h=heading)

@@ -7,11 +7,11 @@ from collections.abc import Sequence
 from dataclasses import field
 
 from osc2tx.importing.dimensions import LENGTH, literal, short
+from osc2tx.importing.ground import wrapped
 from osc2tx.importing.names import Names
 from osc2tx.importing.program import Declared
-from osc2tx.importing.starting import wrapped
 from osc2tx.importing.statements import Call, call
-from osc2tx_runtime.opendrive import LanePosition
+from osc2tx_runtime.opendrive import LanePosition, RoadMap
 from osc2tx_shared.classes import dataclass
 
 
@@ -46,6 +46,21 @@ def odr_point(road: str, lane: str, s: str, t: str) -> str:
     return f'road.create_odr_point("{road}", "{lane}", {s}, {t})'
 
 
+def point_of(place: LanePosition, road_map: RoadMap) -> str:
+    """Return the point of the map at a place in a lane."""
+    t = place.offset * road_map.travel_direction(place.road, place.lane)
+    at = literal(place.s, LENGTH), literal(t, LENGTH)
+    return odr_point(place.road, str(place.lane), *at)
+
+
+def lane_beside(reference: str, lanes: int) -> str:
+    """Return the modifier for a lane by that of another actor, counted to the left."""
+    if lanes == 0:
+        return f"lane(same_as: {reference})"
+    count = "" if abs(lanes) == 1 else f"{abs(lanes)}, "
+    return f"lane({count}side_of: {reference}, side: {'left' if lanes > 0 else 'right'})"
+
+
 def heading_of(h: float) -> str:
     """Return the modifier for a heading (rad) in the world."""
     return f"orientation(yaw: {degrees(h)}, measure_by: absolute)"
@@ -67,51 +82,27 @@ class Points:
     def __init__(self, names: Names) -> None:
         self._names = names
         self.declared: list[Declared] = []
-        self._declared: dict[tuple[str | float, ...], str] = {}
+        self._declared: dict[tuple[str, str, str], str] = {}
 
     def point(self, x: float, y: float, name: str) -> str:
         """Return the name of a point in the world."""
-        place = [round(value, 6) for value in (x, y, 0.0)]
-        key: tuple[str | float, ...] = ("point", *place)
-        if key not in self._declared:
-            made = self._names.new("", kind="point", base=f"{name}_point")
-            told = [
-                f"it.{axis} == {literal(v, LENGTH)}" for axis, v in zip("xyz", place, strict=True)
-            ]
-            self.declared.append(Declared(made, "position_3d", [" and ".join(told)]))
-            self._declared[key] = made
-        return self._declared[key]
+        told = " and ".join(f"it.{each}" for each in _coordinates(x, y))
+        return self._once(f"{name}_point", "position_3d", told)
 
     def orientation(self, h: float, name: str) -> str:
         """Return the name of an orientation with a heading (rad) in the world."""
-        key = ("orientation", round(math.degrees(h), 6), 0.0)
-        if key not in self._declared:
-            made = self._names.new("", kind="point", base=f"{name}_orientation")
-            told = f"it.yaw == {degrees(h)} and it.pitch == 0deg and it.roll == 0deg"
-            self.declared.append(Declared(made, "orientation_3d", [told]))
-            self._declared[key] = made
-        return self._declared[key]
+        told = f"it.yaw == {degrees(h)} and it.pitch == 0deg and it.roll == 0deg"
+        return self._once(f"{name}_orientation", "orientation_3d", told)
 
     def goal(self, x: float, y: float, z: float, name: str) -> str:
         """Return the name of a point in the world whose distance is measured."""
-        place = [round(value, 6) for value in (x, y, z)]
-        key: tuple[str | float, ...] = ("goal", *place)
-        if key not in self._declared:
-            made = self._names.new("", kind="point", base=f"{name}_goal")
-            at = ", ".join(literal(value, LENGTH) for value in place)
-            self.declared.append(Declared(made, "xyz_point", value=f"road.create_xyz_point({at})"))
-            self._declared[key] = made
-        return self._declared[key]
+        at = ", ".join(_metres(each) for each in (x, y, z))
+        return self._once(f"{name}_goal", "xyz_point", value=f"road.create_xyz_point({at})")
 
     def pose(self, x: float, y: float, name: str) -> str:
         """Return the name of a pose in the world, of a corner of a path."""
-        made = self._names.new("", kind="point", base=f"{name}_pose")
-        told = [
-            f"it.position.{axis} == {literal(round(v, 6), LENGTH)}"
-            for axis, v in zip("xyz", (x, y, 0.0), strict=True)
-        ]
-        self.declared.append(Declared(made, "pose_3d", [" and ".join(told)]))
-        return made
+        told = " and ".join(f"it.position.{each}" for each in _coordinates(x, y))
+        return self._declare(f"{name}_pose", "pose_3d", told)
 
     def relative(
         self, kind: str, offsets: Sequence[tuple[float, float]], stamps: Sequence[str], name: str
@@ -130,31 +121,42 @@ class Points:
     def relative_on_road(
         self, kind: str, corners: Sequence[str], stamps: Sequence[str], name: str
     ) -> str:
-        """Return the name of a path or trajectory along the road from where an actor is.
-
-        Args:
-            kind: `path` or `trajectory`.
-            corners: Its points; their s counts from the actor.
-            stamps: Times of the corners of a trajectory.
-            name: The actor.
-        """
+        """Return the name of a path or trajectory along the road; s counts from the actor."""
         return self._relative(f"relative_{kind}_odr", corners, stamps, f"{name}_{kind}")
 
     def _relative(
         self, type_name: str, corners: Sequence[str], stamps: Sequence[str], base: str
     ) -> str:
-        made = self._names.new("", kind="point", base=base)
         told = [f"it.points == [{', '.join(corners)}]", "it.interpolation == straight_line"]
         if stamps:
             told.append(f"it.time_stamps == [{', '.join(stamps)}]")
-        self.declared.append(Declared(made, type_name, told))
-        return made
+        return self._declare(base, type_name, *told)
 
     def route(self, stops: Sequence[LanePosition], name: str) -> str:
         """Return the name of a route for an actor."""
-        made = self._names.new("", kind="route", base=f"{name}_way")
-        points = ", ".join(
-            odr_point(each.road, str(each.lane), literal(each.s, LENGTH), "0m") for each in stops
-        )
-        self.declared.append(Declared(made, "route", value=f"road.create_route([{points}])"))
+        places = ((each.road, str(each.lane), literal(each.s, LENGTH)) for each in stops)
+        points = ", ".join(odr_point(*each, "0m") for each in places)
+        return self._declare(f"{name}_way", "route", value=f"road.create_route([{points}])")
+
+    def _declare(self, base: str, type_name: str, *told: str, value: str = "") -> str:
+        """Return the name of a new declaration."""
+        made = self._names.new("", kind="point", base=base)
+        self.declared.append(Declared(made, type_name, list(told), value))
         return made
+
+    def _once(self, base: str, type_name: str, told: str = "", value: str = "") -> str:
+        """Return the name of a declaration, which actors at the same place share."""
+        key = type_name, told, value
+        if key not in self._declared:
+            constraints = (told,) if told else ()
+            self._declared[key] = self._declare(base, type_name, *constraints, value=value)
+        return self._declared[key]
+
+
+def _metres(value: float) -> str:
+    return literal(round(value, 6), LENGTH)
+
+
+def _coordinates(x: float, y: float) -> list[str]:
+    """Return what is said of the coordinates of a point on the ground."""
+    return [f"x == {_metres(x)}", f"y == {_metres(y)}", "z == 0m"]

@@ -37,7 +37,7 @@ def _held(limits: Mapping[str, float], share: float, grip: float) -> dict[str, f
 class Profiles(Reader):
     """Reads profiles of speeds."""
 
-    def statement(self, node: Node, said: str, actor: Actor) -> Statement | None:
+    def statement(self, node: Node, actor: Actor) -> Statement | None:
         """Return what a profile does; `None`, with a finding, if nothing says it."""
         node.text("followingMode")  # the times of the entries hold in both modes
         if node.has("entityRef"):
@@ -51,23 +51,22 @@ class Profiles(Reader):
             speed = self._values.quantity(entry, "speed", SPEED)
             time = self._values.quantity(entry, "time", TIME)
             if not entry.has("time"):
-                changes.append(self._untimed(entry, limits, said, speed, actor))
+                changes.append(self._untimed(entry, limits, speed, actor))
             elif time.value == 0.0:
                 changes.append(Statement(call(actor.name, "assign_speed", speed.text), length=0.0))
             else:
                 changes.append(self._change(actor, speed, "constant", time.text, time.value))
-            self._speeds[said] = speed
+            self._speeds[actor.said] = speed
         if limits is not None:
             limits.use_all()
         return composed("serial", changes) if changes else None
 
     def _untimed(
-        self, entry: Node, limits: Node | None, said: str, speed: Quantity, actor: Actor
+        self, entry: Node, limits: Node | None, speed: Quantity, actor: Actor
     ) -> Statement:
         """Return a change of the speed that only limits of the acceleration tell."""
-        before = self._speeds.get(said)
+        before, body = self._speeds.get(actor.said), self._body(actor)
         told = {name: self._values.nominal(limits, name, math.inf) for name in CAR if limits}
-        body = self._places.bodies.get(said)
         own = CAR if body is None else body.limits
         for share, profile in SHARES.items():
             roads = (math.inf, *(each * GRAVITY for each in ADHESION.values()))

@@ -36,10 +36,10 @@ class Finding:
     file: str = ""
     bound: float | None = None
 
-    @property
-    def where(self) -> str:
-        """File and place, as far as they are known."""
-        return ":".join(str(part) for part in (self.file, self.place) if part)
+
+def where(place: Place | None, file: str = "") -> str:
+    """Return file and place, as far as they are known."""
+    return ":".join(str(part) for part in (file, place) if part)
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,6 +98,7 @@ class ImportReport:
     under_test: list[str] = field(default_factory=list)
     measured: Measured | None = None
     unmeasured: str = ""
+    _noted: set[tuple[str, str, str, str]] = field(default_factory=set)
 
     def measure(self, found: Measured | None, reason: str = "") -> None:
         """Take what a run shows; what is off in it is a finding with a bound.
@@ -118,20 +119,27 @@ class ImportReport:
             what = Finding("approximated", "the scenario", found.difference, None, bound=bound)
             self.findings.append(what)
 
-    def add(
-        self,
-        grade: Grade,
-        construct: str,
-        reason: str,
-        place: Place | None,
-        *,
-        file: str = "",
-        bound: float | None = None,
-    ) -> None:
+    def add(self, finding: Finding) -> None:
         """Take a finding, unless it is known."""
-        finding = Finding(grade, construct, reason, place, file, bound)
         if finding not in self.findings:
             self.findings.append(finding)
+
+    def note(
+        self, what: str, text: str, reason: str, place: Place | None = None, file: str = ""
+    ) -> None:
+        """Take something that changes nothing; at one place it counts once.
+
+        Args:
+            what: Its path in the document, or what it is.
+            text: What stands there.
+            reason: Why that changes nothing.
+            place: Where it stands.
+            file: Its file, if it is a catalog.
+        """
+        note = (what, text, reason, where(place, file))
+        if place is None or note not in self._noted:
+            self._noted.add(note)
+            self.idle.append(note)
 
     @property
     def grade(self) -> Grade:

@@ -26,11 +26,11 @@ REPLAYS = ("replay_path", "replay_trajectory")
 class Routes(Reader):
     """Reads teleports, routes and trajectories."""
 
-    def teleport(self, node: Node, said: str, actor: Actor) -> Iterator[Effect]:
+    def teleport(self, node: Node, actor: Actor) -> Iterator[Effect]:
         """Return what a teleport in the run does."""
         spot = self._places.spot(node.one("Position"), actor.name, at_start=False)
-        self._lanes[said] = None
-        self._offsets[said] = 0.0
+        self._lanes[actor.said] = None
+        self._offsets[actor.said] = 0.0
         if spot is not None:
             if spot.yaw and not spot.turned:
                 node.approximate("its heading is that of its lane")
@@ -45,10 +45,10 @@ class Routes(Reader):
             turn = call(actor.name, "assign_orientation", spot.turned)
             yield Effect(Statement(turn, length=0.0), actor.name, BOTH)
 
-    def assigned(self, node: Node, said: str, actor: Actor) -> Statement | None:
+    def assigned(self, node: Node, actor: Actor) -> Statement | None:
         """Return what takes an actor along a route."""
         stops = self._places.courses.stops_of(node)
-        body = self._places.bodies.get(said)
+        body = self._body(actor)
         if body is not None and body.place is not None:
             stops = [body.place, *stops]
         stops = [*stops[:1], *stops[-1:]]  # it takes the shortest way to the last one
@@ -62,10 +62,10 @@ class Routes(Reader):
         way = self._places.points.route(stops, actor.name)
         return Statement(actor.moves, modifiers=[f"along({way})"])
 
-    def effects(self, node: Node, said: str, actor: Actor, *, at_start: bool) -> Iterator[Effect]:
+    def effects(self, node: Node, actor: Actor, *, at_start: bool) -> Iterator[Effect]:
         """Return what a routing action does."""
         if node.tag == "AssignRouteAction":
-            statement = self.assigned(node, said, actor)
+            statement = self.assigned(node, actor)
             if statement is not None:
                 yield Effect(statement, actor.name, frozenset((LATERAL,)))
             return
@@ -78,14 +78,12 @@ class Routes(Reader):
             yield Effect(Statement(call(actor.name, "change_position", **told)), actor.name, BOTH)
             return
         if node.tag == "FollowTrajectoryAction":
-            yield from self._trajectory(node, said, actor, at_start=at_start)
+            yield from self._trajectory(node, actor, at_start=at_start)
             return
         node.leave_out("the language has no such action")
 
-    def _trajectory(
-        self, node: Node, said: str, actor: Actor, *, at_start: bool
-    ) -> Iterator[Effect]:
-        timed = _timing(node) is not None
+    def _trajectory(self, node: Node, actor: Actor, *, at_start: bool) -> Iterator[Effect]:
+        timed, said = _timing(node) is not None, actor.said
         way, own = self._places.trajectory(node), self._places.courses.offsets(node, said)
         is_from_actor = way is None
         way = self._places.trajectory(node, ORIGIN) if way is None else way
@@ -147,7 +145,7 @@ class Routes(Reader):
         """Note what of a trajectory has no part in where it leads, and take the rest."""
         for trajectory in map(node.other, node.element.below(xml.Trajectory)):
             trajectory.idle("nothing refers to it by its name", "name")
-            if (trajectory.text("closed") or "false").lower() in ("true", "1"):
+            if trajectory.is_true("closed"):
                 trajectory.approximate("a closed trajectory is followed once")
             else:
                 trajectory.idle("it is not closed", "closed")

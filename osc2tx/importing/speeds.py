@@ -28,10 +28,10 @@ from osc2tx.importing.effects import (
     of_dynamics,
     smooth_peak,
 )
+from osc2tx.importing.ground import is_ahead
+from osc2tx.importing.points import lane_beside
 from osc2tx.importing.profiles import Profiles
-from osc2tx.importing.starting import is_ahead
 from osc2tx.importing.statements import Statement, call, composed
-from osc2tx.xosc.element import Unresolved
 from osc2tx.xosc.player.courses import PEAK_RATES
 
 
@@ -42,14 +42,14 @@ class Speeds(Reader):
         super().__init__(readings)
         self._profiles = Profiles(readings)
 
-    def effects(self, node: Node, said: str, actor: Actor, at_start: bool) -> Iterator[Effect]:
+    def effects(self, node: Node, actor: Actor, at_start: bool) -> Iterator[Effect]:
         """Return what a longitudinal action does."""
         slots = frozenset((LONGITUDINAL,))
         match node.tag:
             case "SpeedAction":
-                statement = self._speed(node, said, actor, at_start)
+                statement = self._speed(node, actor, at_start)
             case "SpeedProfileAction":
-                statement = self._profiles.statement(node, said, actor)
+                statement = self._profiles.statement(node, actor)
             case "LongitudinalDistanceAction":
                 statement = self._gap(node, actor, at_start)
             case _:
@@ -61,21 +61,21 @@ class Speeds(Reader):
         for each in members or [statement]:
             yield Effect(each, actor.name, slots)
 
-    def _speed(self, node: Node, said: str, actor: Actor, at_start: bool) -> Statement | None:
+    def _speed(self, node: Node, actor: Actor, at_start: bool) -> Statement | None:
         target_node = node.one("SpeedActionTarget").inner
         dynamics = node.one("SpeedActionDynamics")
         target = self._target(target_node, at_start)
         shape = dynamics.text("dynamicsShape") or "step"
         dynamics.text("followingMode")
-        if (target_node.text("continuous") or "false").lower() in ("true", "1"):
+        if target_node.is_true("continuous"):
             kept = self._as_fast_as(node, target_node, dynamics, actor)
             if shape != "step":
                 return kept
             assigned = Statement(call(actor.name, "assign_speed", target.text), length=0.0)
             return composed("serial", [assigned, kept])
         standing = Quantity(literal(0.0, SPEED), 0.0)
-        before = self._speeds.get(said, standing)
-        self._speeds[said] = target
+        before = self._speeds.get(actor.said, standing)
+        self._speeds[actor.said] = target
         value = self._values.quantity(dynamics, "value", of_dynamics(dynamics))
         dimension = dynamics.text("dynamicsDimension") or "time"
         if shape == "step" or (dimension in ("time", "distance") and value.value == 0.0):
@@ -86,7 +86,7 @@ class Speeds(Reader):
                 f"a cubic course of the speed is smooth here, {CUBIC:.1%} of its change off at most"
             )
         arguments = {"target": target.text, "rate_profile": PROFILES.get(shape, "constant")}
-        limit = self._limit_within(said, before, target, shape, value.value, dimension)
+        limit = self._limit_within(actor, before, target, shape, value.value, dimension)
         if limit is not None:
             dynamics.approximate("the change is held to what the vehicle can do")
             value, dimension = Quantity(literal(limit, ACCELERATION), limit), "rate"
@@ -98,7 +98,7 @@ class Speeds(Reader):
                 dynamics.approximate(
                     "a change at a rate of 0 never changes anything; there is none"
                 )
-                self._speeds[said] = before
+                self._speeds[actor.said] = before
                 return None
             if value.value < 0.0:
                 dynamics.approximate("a rate has no sign; its size counts")
@@ -121,7 +121,7 @@ class Speeds(Reader):
 
     def _limit_within(
         self,
-        said: str,
+        actor: Actor,
         before: Quantity | None,
         target: Quantity,
         shape: str,
@@ -129,7 +129,7 @@ class Speeds(Reader):
         dimension: str,
     ) -> float | None:
         """Return the acceleration (m/s^2) that a vehicle has at most, if a change asks for more."""
-        body = self._places.bodies.get(said)
+        body = self._body(actor)
         if body is None or before is None or dimension == "distance":
             return None
         change = target.value - before.value
@@ -142,12 +142,9 @@ class Speeds(Reader):
             for each in node.children():
                 each.leave_out("a steady state has no counterpart in the DSL")
             return self._values.quantity(node, "value", SPEED)
-        reference_said = self._values.text(node, "entityRef")
-        reference = self._actors.get(reference_said)
-        if reference is None:
-            raise Unresolved(f"there is no entity {reference_said}", node.place)
-        known = self._speeds.get(reference_said) if at_start else None
-        now = self._speeds.get(reference_said)
+        reference = self._actor(node)
+        now = self._speeds.get(reference.said)
+        known = now if at_start else None
         nominal = now.value if now is not None else 0.0
         base = f"{reference.name}.speed"
         if (node.text("speedTargetValueType") or "delta") == "factor":
@@ -162,7 +159,7 @@ class Speeds(Reader):
 
     def _as_fast_as(self, node: Node, target: Node, dynamics: Node, actor: Actor) -> Statement:
         """Return a speed that is kept against that of another actor."""
-        reference = self._actors[self._values.text(target, "entityRef")].name
+        reference = self._actor(target).name
         if dynamics.text("dynamicsShape") != "step":
             node.approximate("how fast a relative speed is reached is up to the simulator")
         self._values.quantity(dynamics, "value", of_dynamics(dynamics))
@@ -183,9 +180,9 @@ class Speeds(Reader):
         if reference is None or actor.kind != "vehicle":
             node.leave_out("only vehicles keep gaps to actors")
             return None
-        continuous = (node.text("continuous") or "false").lower() in ("true", "1")
+        continuous = node.is_true("continuous")
         if node.find("DynamicConstraints") is None and not continuous:
-            at_once = self._at_once(node, said, actor, at_start)
+            at_once = self._at_once(node, actor, reference, at_start)
             if at_once is not None:
                 return at_once
         node.approximate("how a gap is closed is up to the simulator")
@@ -195,35 +192,25 @@ class Speeds(Reader):
             node.text(name)
         for each in node.children("DynamicConstraints"):
             each.use_all()
-        if node.has("timeGap"):
-            target = self._values.quantity(node, "timeGap", TIME)
-            kind = "time"
-        else:
-            target = self._values.quantity(node, "distance", LENGTH)
-            kind = "space"
+        in_time = ("time", "timeGap", TIME)
+        kind, name, dimension = in_time if node.has("timeGap") else ("space", "distance", LENGTH)
+        target = self._values.quantity(node, name, dimension)
         arguments = {"target": target.text, "direction": direction, "reference": reference.name}
         change = Statement(call(actor.name, f"change_{kind}_gap", **arguments))
         if not continuous:
             return change
-        keep = Statement(
-            call(
-                actor.name,
-                f"keep_{kind}_gap",
-                reference=reference.name,
-                direction="longitudinal",
-            ),
-            length=math.inf,
-        )
-        return composed("serial", [change, keep])
+        arguments = {"reference": reference.name, "direction": "longitudinal"}
+        keep = call(actor.name, f"keep_{kind}_gap", **arguments)
+        return composed("serial", [change, Statement(keep, length=math.inf)])
 
-    def _at_once(self, node: Node, said: str, actor: Actor, at_start: bool) -> Statement | None:
+    def _at_once(
+        self, node: Node, actor: Actor, reference: Actor, at_start: bool
+    ) -> Statement | None:
         """Return a place at a gap, which nothing keeps the actor from having at once.
 
         `None`: both are in different lanes, or somewhere else by now.
         """
-        own_said = next(key for key, each in self._actors.items() if each is actor)
-        own = self._places.bodies.get(own_said)
-        other = self._places.bodies.get(said)
+        own, other = self._body(actor), self._body(reference)
         if own is None or other is None or own.place is None or other.place is None:
             return None
         if own.place[:2] != other.place[:2] or own.along != other.along:
@@ -232,32 +219,27 @@ class Speeds(Reader):
         side = node.text("displacement")
         if side is not None:
             ahead = side.startswith("leading")
-        reference, space = self._actors[said].name, 0.0
-        if (node.text("freespace") or "false").lower() in ("true", "1"):
+        space = 0.0
+        if node.is_true("freespace"):
             space = own.rear + other.front if ahead else own.front + other.rear
         node.text("coordinateSystem")
         if node.has("timeGap"):
             time = self._values.quantity(node, "timeGap", TIME)
-            moving = said if ahead else own_said
-            known = self._speeds.get(moving) if at_start else None
-            speed = known.within(PRODUCT) if known else f"{self._actors[moving].name}.speed"
+            moving = reference if ahead else actor
+            known = self._speeds.get(moving.said) if at_start else None
+            speed = known.within(PRODUCT) if known else f"{moving.name}.speed"
             gap = Quantity(f"{time.within(PRODUCT)} * {speed}", 0.0, True, PRODUCT)
         else:
             gap = self._values.quantity(node, "distance", LENGTH)
         way = total(LENGTH, (1, gap), (1, Quantity(literal(space, LENGTH), space)))
-        where = way.text
         side = "ahead_of" if ahead else "behind"
         modifiers = [
-            f"lane(same_as: {reference})",
-            f"position({where}, {side}: {reference})",
+            lane_beside(reference.name, 0),
+            f"position({way.text}, {side}: {reference.name})",
         ]
-        is_aside = abs(own.place.offset) > 1e-9
-        if is_aside or self._places.beside.varies_aside(own_said):
-            spot = (
-                self._places.beside.at_gap(node, own_said, said, way, ahead=ahead)
-                if at_start
-                else None
-            )
+        is_aside, beside = abs(own.place.offset) > 1e-9, self._places.beside
+        if at_start and (is_aside or beside.varies_aside(actor.said)):
+            spot = beside.at_gap(node, actor.said, reference.said, way, ahead=ahead)
             if spot is not None:
                 return Statement(spot.assigned_to(actor.name), length=0.0)
         if is_aside:

@@ -138,6 +138,16 @@ class Statement:
         return bool(self.modifiers or self.until or self.duration)
 
     @property
+    def is_plain(self) -> bool:
+        """Whether it has no name, and nothing stands below `with:`."""
+        return not (self.label or self.is_qualified)
+
+    @property
+    def is_bare(self) -> bool:
+        """Whether it is plain, and has no comments."""
+        return self.is_plain and not self.comments
+
+    @property
     def calls(self) -> Iterator[Call]:
         """The invocations in it."""
         if isinstance(self.does, Call):
@@ -180,7 +190,7 @@ def composed(kind: Kind, members: Sequence[Statement]) -> Statement:
     members = settled(members) if kind == "serial" else members
     for member in members:
         inner = member.members if member.does == kind else ()
-        if inner and not member.label and not member.is_qualified:
+        if inner and member.is_plain:
             first = replace(inner[0], comments=[*member.comments, *inner[0].comments])
             flat += [first, *inner[1:]]
         else:
@@ -202,7 +212,7 @@ def keeps_speed(statement: Statement) -> bool:
 
 def _goes_on_as(statement: Statement, following: Statement | None) -> bool:
     """Whether an actor that keeps its speed for a time goes on with that, without an end."""
-    if statement.label or statement.is_qualified or statement.comments or following is None:
+    if not statement.is_bare or following is None:
         return False
     if following.label or not keeps_speed(following) or not isinstance(following.does, Call):
         return False
@@ -221,7 +231,7 @@ def without_labels(statement: Statement, kept: Container[str]) -> Statement:
     found = composed(statement.does, members)
     if not (label or statement.is_qualified or statement.comments):
         return found
-    if found.label or found.is_qualified or found.comments:
+    if not found.is_bare:
         found = replace(statement, members=members)
     return replace(
         found,

@@ -18,16 +18,20 @@ from osc2tx.importing.cast import Actor
 from osc2tx.importing.conditions import Trigger
 from osc2tx.importing.dimensions import TIME, Quantity, literal
 from osc2tx.importing.joining import Join, joined
-from osc2tx.importing.precedence import (
+from osc2tx.importing.program import EVENT, Declared
+from osc2tx.importing.statements import Emit, Statement, When, composed, elapsed, wait
+from osc2tx.importing.steps import (
+    ENDS,
+    Block,
+    Board,
+    Branch,
+    Step,
     below,
     breaks_off,
     conflict,
     moment,
     replaces_at_once,
 )
-from osc2tx.importing.program import EVENT, Declared
-from osc2tx.importing.statements import Emit, Statement, When, composed, elapsed, wait
-from osc2tx.importing.steps import ENDS, Block, Board, Branch, Step
 from osc2tx.importing.waiting import Waiting, lateness, minus, nominal_start, start_of
 
 AT_ONCE = elapsed("0s")
@@ -301,7 +305,7 @@ class Structure:
         ways = [self.waits(Trigger([group])) for group in block.stop.groups]
         ends = [each.does for way in ways for each in way if isinstance(each.does, When)]
         if len(ends) == len(ways) and all(len(way) == 1 for way in ways):
-            if not whole.is_composed or whole.label or whole.is_qualified:
+            if not (whole.is_composed and whole.is_plain):
                 whole = Statement("serial", members=[whole])
             whole.until += ends
         else:

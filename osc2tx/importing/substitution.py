@@ -1,11 +1,15 @@
-"""Documents with values in the place of parameters."""
+"""Documents with other texts: values in the place of parameters, positions of CARLA on the map.
+
+ScenarioRunner takes the world positions of a document whose description begins with `CARLA:` as
+those of CARLA, in which y and headings count the other way round.
+"""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 
-from osc2tx.xosc import Element
+from osc2tx.xosc.element import Element
 
 _PARAMETER = re.compile(r"\$([A-Za-z_]\w*)")
 
@@ -13,6 +17,11 @@ _PARAMETER = re.compile(r"\$([A-Za-z_]\w*)")
 def read_in(text: str) -> set[str]:
     """Return the names of the parameters that a text reads."""
     return set(_PARAMETER.findall(text))
+
+
+def values_in(declarations: Iterable[Element], name: str = "name") -> dict[str, str]:
+    """Return the texts of declarations or assignments, by an attribute that names them."""
+    return {each.get(name) or "": each.get("value") or "" for each in declarations}
 
 
 def with_values(root: Element, values: Mapping[str, str]) -> Element:
@@ -49,11 +58,7 @@ def scoped(node: Element) -> Element:
     """Return an element in which the parameters of stories and maneuvers have their values."""
     own = [each for each in node.children if each.tag == "ParameterDeclarations"]
     if node.tag != "OpenSCENARIO" and own and own[0].children:
-        values = {
-            each.get("name") or "": each.get("value") or ""
-            for declarations in own
-            for each in declarations.children
-        }
+        values = values_in(each for declarations in own for each in declarations.children)
         kept = [each for each in node.children if each not in own]
         return scoped(substituted(node.with_children(*kept), values))
     return with_each(node, scoped)
@@ -87,3 +92,36 @@ def _with_values(text: str, values: Mapping[str, str]) -> str:
         return f"({said[2:-1]})" if said.startswith("${") else f"({said})"
 
     return _PARAMETER.sub(inner, text)
+
+
+MARK = "CARLA:"
+MIRRORED = {"WorldPosition": ("y", "h"), "RelativeWorldPosition": ("dy",)}
+"""Attributes with another sign, by element."""
+
+
+def is_of_carla(root: Element) -> bool:
+    """Whether a document is in the coordinates of CARLA."""
+    header = next((each for each in root.children if each.tag == "FileHeader"), None)
+    return header is not None and (header.get("description") or "").startswith(MARK)
+
+
+def mirrored(node: Element) -> Element:
+    """Return an element with its positions in the coordinates of the map."""
+    node = with_each(node, mirrored)
+    names = MIRRORED.get(node.tag, ())
+    if not any(name in names for name, _ in node.attributes):
+        return node
+    return node.with_attributes(
+        {name: _negative(text) if name in names else text for name, text in node.attributes}
+    )
+
+
+def _negative(text: str) -> str:
+    """Return a value with the other sign."""
+    if text.startswith("$"):
+        inner = text.removeprefix("${").removesuffix("}") if text.startswith("${") else text
+        return f"${{0 - ({inner})}}"
+    try:
+        return f"{-float(text):.12g}"
+    except ValueError:
+        return text

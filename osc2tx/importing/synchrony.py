@@ -26,12 +26,12 @@ class Synchrony(Reader):
     meantime, at the speed it has then. How far both have to go is known from their starts.
     """
 
-    def effects(self, node: Node, said: str, actor: Actor) -> Iterator[Effect]:
+    def effects(self, node: Node, actor: Actor) -> Iterator[Effect]:
         """Return what a synchronization does."""
         final = node.find("FinalSpeed")
         speed = None if final is None else next(final.children("AbsoluteSpeed"), None)
         target = None if speed is None else self._values.quantity(speed, "value", SPEED)
-        found = self._planned(node, said)
+        found = self._planned(node, actor)
         node.use_all()
         if found is None:
             node.leave_out("when both come to their places is not known before the run")
@@ -42,14 +42,14 @@ class Synchrony(Reader):
         steps, last = found
         end = target or Quantity(literal(round(last, 6), SPEED), last)
         statement = self._statement(steps, actor, node, end)
-        self._speeds[said] = end
+        self._speeds[actor.said] = end
         yield Effect(statement, actor.name, frozenset((LONGITUDINAL,)))
 
-    def _planned(self, node: Node, said: str) -> tuple[Plan, float] | None:
+    def _planned(self, node: Node, actor: Actor) -> tuple[Plan, float] | None:
         """Return the plan at nominal values, and the final speed (m/s)."""
         action, road_map = self._places.resolved(node), self._places.map
-        bodies = self._places.bodies
-        body, master = bodies.get(said), bodies.get(action.get("masterEntityRef") or "")
+        body = self._body(actor)
+        master = self._places.bodies.get(action.get("masterEntityRef") or "")
         if body is None or master is None or road_map is None:
             return None
         speeds = [self._speeds.get(each.name) for each in (body, master)]
@@ -101,27 +101,21 @@ class Synchrony(Reader):
 
     def _is_near(self, node: Node, steps: Plan) -> str:
         """Return the condition that the master is at the distance of the change."""
-        action, road_map = self._places.resolved(node), self._places.map
-        assert road_map is not None
-        said = action.said("masterEntityRef")
-        master, body = self._actors[said].name, self._places.bodies[said]
+        action = self._places.resolved(node)
+        actor = self._actors[action.said("masterEntityRef")]
+        master, body, at = actor.name, self._places.bodies[actor.said], self._on_road(actor)
         place = self._places.known(action.one(xml.TargetPositionMaster))
         ahead = literal(round(steps.change + steps.steady, 6), TIME)
-        if (
-            isinstance(place, LanePosition)
-            and body.place is not None
-            and place.road == body.place.road
-        ):
-            direction = road_map.travel_direction(place.road, body.place.lane) * body.along
-            direction *= 1 if body.v >= 0.0 else -1
-            at = literal(place.s, LENGTH)
+        if isinstance(place, LanePosition) and at is not None and place.road == at.place.road:
+            direction = at.direction * body.along * (1 if body.v >= 0.0 else -1)
+            s = literal(place.s, LENGTH)
             given = node.one("TargetPositionMaster").inner
             if given.tag == "LanePosition" and self._values.varies(given, "s"):
-                at = self._values.quantity(given, "s", LENGTH).text
+                s = self._values.quantity(given, "s", LENGTH).text
             speed = f"{master}.speed" if body.v >= 0.0 else f"(-1) * {master}.speed"
             if direction > 0:
-                return f"{master}.get_s_coord() >= {at} - {ahead} * {speed}"
-            return f"{master}.get_s_coord() <= {at} + {ahead} * {speed}"
+                return f"{master}.get_s_coord() >= {s} - {ahead} * {speed}"
+            return f"{master}.get_s_coord() <= {s} + {ahead} * {speed}"
         here = self._places.ahead_of_start(body, (self._readings.begin + steps.hold) * body.v)
         assert place is not None
         there = self._places.pose_of(place)

@@ -7,20 +7,20 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from math import isfinite
+from pathlib import Path
 
 from osc2tx.importing.cursor import Node
 from osc2tx.importing.dimensions import (
     ANGLE,
+    HOURLY,
     NUMBER,
     PRODUCT,
     SPEED,
-    SUM,
     TYPES,
     UNITS,
     Dimension,
     Quantity,
     literal,
-    short,
     total,
 )
 from osc2tx.importing.distributions import Open
@@ -71,17 +71,24 @@ class Values:
         """
         return substituted(parsed(text.strip()), self.aliases)
 
-    def entry(self, reference: Node) -> Node | None:
-        """Return the entry that a `CatalogReference` names; `None`, with a finding: none."""
+    def entry(self, reference: Node, instead: str = "") -> tuple[Node, Path] | None:
+        """Return the entry that a `CatalogReference` names, and its file.
+
+        `None`, with a finding: there is none; `instead` tells what stands for it, if anything does.
+        """
         self.text(reference, "catalogName")
         said = self.text(reference, "entryName")
         for each in reference.children("ParameterAssignments"):
             each.use_all()
         found = self.document.entry(reference.element)
         if found is None:
-            reference.leave_out(f"there is no entry {said} in the catalogs")
+            reason = f"there is no entry {said} in the catalogs"
+            if instead:
+                reference.approximate(f"{reason}; {instead}")
+            else:
+                reference.leave_out(reason)
             return None
-        return reference.entry(found[0], found[1].name)
+        return reference.entry(found[0], found[1].name), found[1]
 
     # --- values -----------------------------------------------------------------------------------
 
@@ -155,22 +162,27 @@ class Values:
     def of_parameter(self, parameter: Parameter) -> str:
         """Return the value of a declaration."""
         assert parameter.expression is not None
-        if isinstance(parameter.expression, Number):
-            return self.in_unit(parameter.expression.value, parameter)
-        said = next(key for key, each in self.parameters.items() if each is parameter)
-        value = float(self.document.parameters[said])
-        if parameter.is_hourly:
-            return self._hourly(parameter.expression).text
-        return self._typed(parameter.expression, parameter.dimension, value).text
+        return self._in_its_unit(parameter.expression, parameter)
+
+    def as_parameter(self, text: str, parameter: Parameter) -> str:
+        """Return a limit of a parameter.
+
+        Raises:
+            Untyped: It has no form in the language.
+        """
+        return self._in_its_unit(self.parsed(text), parameter)
+
+    def _in_its_unit(self, node: Expression, parameter: Parameter) -> str:
+        """Return what gives a parameter, or a limit of it."""
+        if isinstance(node, Number):
+            return self.in_unit(node.value, parameter)
+        return self._typed(node, parameter.dimension, 0.0).text
 
     def in_unit(self, number: float, parameter: Parameter) -> str:
         """Return a number of the document in the unit of a parameter."""
-        unit, _ = parameter.unit
         if parameter.kind != "double":
             return str(round(number))
-        if not parameter.is_hourly:
-            return literal(number, parameter.dimension)
-        return f"{short(number)}{unit}"
+        return literal(number, parameter.dimension)
 
     def _typed(self, node: Expression, wanted: Dimension, value: float) -> Quantity:
         if isinstance(node, Number):
@@ -188,7 +200,7 @@ class Values:
         if is_per_hour(node) and self._counts_hourly(node.left):
             if wanted != SPEED:
                 raise Untyped("kph")
-            return self._hourly(node.left)
+            return self._written(node.left, HOURLY)
         if node.sign in "+-":
             if node.sign == "-" and node.left == Number(0.0):
                 return Quantity(
@@ -220,7 +232,7 @@ class Values:
 
     def _named(self, node: Name, wanted: Dimension) -> Quantity:
         parameter = self.parameters.get(node.name)
-        if parameter is None or parameter.expression is None or parameter.is_hourly:
+        if parameter is None or parameter.expression is None:
             raise Untyped(node.name)
         if parameter.dimension == wanted:
             return Quantity(parameter.name, 0.0)
@@ -264,7 +276,7 @@ class Values:
             return None
         if isinstance(node, Name):
             parameter = self.parameters.get(node.name)
-            if parameter is None or parameter.is_hourly:
+            if parameter is None:
                 raise Untyped(node.name)
             return parameter.dimension
         if is_per_hour(node) and self._counts_hourly(node.left):
@@ -280,29 +292,7 @@ class Values:
 
     def _counts_hourly(self, node: Expression) -> bool:
         found = [self.parameters.get(name) for name in names_in(node)]
-        return bool(found) and all(each is not None and each.is_hourly for each in found)
-
-    def _hourly(self, node: Expression) -> Quantity:
-        """Return kilometres per hour as a speed."""
-        if isinstance(node, Number):
-            return Quantity(f"{short(node.value)}kph", 0.0)
-        if isinstance(node, Name):
-            parameter = self.parameters.get(node.name)
-            if parameter is None or not parameter.is_hourly:
-                raise Untyped(node.name)
-            parameter.is_used = True
-            return Quantity(parameter.name, 0.0)
-        if node.sign == "-" and node.left == Number(0.0):
-            return Quantity(f"-{self._hourly(node.right).within(PRODUCT)}", 0.0, True, PRODUCT)
-        if node.sign in "+-":
-            return _joined(self._hourly(node.left), node.sign, self._hourly(node.right), SUM)
-        if isinstance(node.right, Number):
-            factor = Quantity(short(node.right.value), 0.0)
-            return _joined(self._hourly(node.left), node.sign, factor, PRODUCT)
-        if isinstance(node.left, Number) and node.sign == "*":
-            factor = Quantity(short(node.left.value), 0.0)
-            return _joined(factor, "*", self._hourly(node.right), PRODUCT)
-        raise Untyped("kph")
+        return bool(found) and all(each is not None and each.dimension == HOURLY for each in found)
 
 
 def _joined(left: Quantity, sign: str, right: Quantity, binding: int) -> Quantity:

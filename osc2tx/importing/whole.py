@@ -26,8 +26,7 @@ from osc2tx.importing.endings import (
 )
 from osc2tx.importing.libraries import STARTS, Shared
 from osc2tx.importing.names import Names
-from osc2tx.importing.report import ImportReport
-from osc2tx.importing.shared_starts import with_starts
+from osc2tx.importing.report import Finding, ImportReport
 from osc2tx.importing.starts import Starts
 from osc2tx.importing.statements import (
     Statement,
@@ -42,7 +41,7 @@ from osc2tx.importing.statements import (
 )
 from osc2tx.importing.steps import Branch
 from osc2tx.importing.structure import Structure
-from osc2tx.importing.wording import worded
+from osc2tx.importing.wording import with_starts, worded
 
 LONGEST = "60s"
 """How long a scenario runs whose document has no end."""
@@ -80,12 +79,9 @@ class Whole:
         if not is_endless(end):
             groups = (structure.waits(Trigger([group])) for group in end.groups)
             return [waits or [wait(elapsed("0s"))] for waits in groups]
-        self._report.add(
-            "approximated",
-            "<StopTrigger>",
-            f"nothing ends the document; the scenario ends after {LONGEST}",
-            self._document.root.place,
-        )
+        reason = f"nothing ends the document; the scenario ends after {LONGEST}"
+        place = self._document.root.place
+        self._report.add(Finding("approximated", "<StopTrigger>", reason, place))
         return [[wait(elapsed(LONGEST))]]
 
     def _composed(
@@ -158,7 +154,7 @@ def _until(members: Sequence[Statement], ends: Sequence[When]) -> Statement:
     whole = composed("parallel", members)
     if len(ends) == 1 and not whole.is_composed:
         return ended(whole, ends[0])
-    if whole.label or whole.is_qualified:
+    if not whole.is_plain:
         whole = Statement("parallel", members=[whole])
     return replace(whole, until=list(ends), length=None)
 
@@ -192,7 +188,7 @@ class _Members:
             actor = self._actors[said]
             mine = self._of[actor.name]
             is_alone = not mine or (len(mine) == 1 and id(mine[0]) in single)
-            stays = is_alone and not self._inits.has_way(said) and self._inits.turns_alone(said)
+            stays = is_alone and not self._inits.of[said].has_way and self._inits.turns_alone(said)
             if actor.kind == "movable_object" or not stays:
                 self.leading += self._inits.statements(said)
                 self._placed.add(said)
@@ -210,11 +206,11 @@ class _Members:
             if actor.kind == "movable_object":  # without a course of its own it stays where it is
                 found += self._inits.lasting(said)
                 continue
-            if not self._inits.places(said):
+            if not self._inits.of[said].is_placed:
                 continue
             if said in self._placed:
                 found += self._inits.lasting(said)
-                if not self._inits.lasting(said) and self._inits.moves(said):
+                if not self._inits.lasting(said) and self._inits.of[said].moves:
                     found += self._inits.going(said)
             elif going_on := self._inits.going_on(said):
                 if all(each.length == 0.0 for each in going_on):
@@ -248,7 +244,9 @@ class _Members:
             later = composed("serial", branch.members[:up_to])
             held = [up_to_end(each, seconds([later])) for each in beside]
             content = [*before, composed("parallel", [*held, later]), *branch.members[up_to:]]
-        return self._held(content, [each for each in alone if self._inits.has_path(each)])
+        return self._held(
+            content, [each for each in alone if self._inits.of[each].path is not None]
+        )
 
     def _first_of(self, said: Sequence[str], branch: Branch) -> int:
         """Return how many members of a branch come before the first action of some entities."""

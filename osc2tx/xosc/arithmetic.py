@@ -127,8 +127,8 @@ def range_of(text: str, ranges: Mapping[str, Range]) -> Range | None:
 N = TypeVar("N", float, Range)
 
 
-class _Evaluation(Generic[N]):
-    """Computes an expression, by recursive descent.
+class Evaluation(Generic[N]):
+    """Computes an expression, by recursive descent: a number, or whatever stands for one.
 
     Raises:
         ValueError: It is none.
@@ -148,13 +148,18 @@ class _Evaluation(Generic[N]):
         """Return the value of a number."""
         raise NotImplementedError
 
+    def _named(self, name: str) -> N:
+        """Return the value of a parameter."""
+        return self._shown[name]
+
     def _remainder(self, value: N, other: N) -> N:
-        raise NotImplementedError
+        raise ValueError("%")
 
     def _result(self, function: str, operands: Sequence[N]) -> N:
-        raise NotImplementedError
+        raise ValueError(function)
 
     def run(self) -> N:
+        """Return the value of all of it."""
         value = self._sum()
         if self._at < len(self._tokens):
             raise ValueError(self._next)
@@ -217,7 +222,7 @@ class _Evaluation(Generic[N]):
             self._take(")")
             return self._result(token, operands)
         if token.startswith("$"):
-            return self._shown[token[1:]]
+            return self._named(token[1:])
         if token in CONSTANTS:
             return self._literal(repr(CONSTANTS[token]))
         if token[:1].isalpha():  # `inf` is a number to Python alone
@@ -225,7 +230,7 @@ class _Evaluation(Generic[N]):
         return self._literal(token)
 
 
-class _Numbers(_Evaluation[float]):
+class _Numbers(Evaluation[float]):
     def _literal(self, token: str) -> float:
         return float(token)
 
@@ -236,14 +241,8 @@ class _Numbers(_Evaluation[float]):
         return float(_FUNCTIONS[function][1](*operands))
 
 
-class _Ranges(_Evaluation[Range]):
+class _Ranges(Evaluation[Range]):
     """The operators that osc2tx writes: sums, products and quotients."""
 
     def _literal(self, token: str) -> Range:
         return Range(float(token), float(token))
-
-    def _remainder(self, value: Range, other: Range) -> Range:
-        raise ValueError("%")
-
-    def _result(self, function: str, operands: Sequence[Range]) -> Range:
-        raise ValueError(function)

@@ -67,7 +67,7 @@ def rows(folder: Path, out: Path, filters: Sequence[str] = ()) -> Iterator[Row]:
             continue
         place = out / str(number)  # each has settings of its own
         results, refused = import_all([path], place, Folders(maps), force=True)
-        yield from (_row(file, path, each) for each in results if each.source == path)
+        yield from (_row(file, path, each) for each in results if each.imported.source == path)
         if refused:
             yield Row(file, "it is refused", False, False, 0, 0)
 
@@ -81,7 +81,7 @@ def _row(file: str, path: Path, result: Result) -> Row:
         outcome = SAME if measured.is_exact else OFF
         where = f"{measured.actor} at {measured.at:.2f} s"
         detail = f"{measured.place:.2f} m: {where}; end {measured.time:.2f} s"
-    named = None if result.imported.program.base else result.distribution
+    named = None if result.imported.program.base else result.imported.distribution
     return Row(
         file,
         outcome,

@@ -208,16 +208,16 @@ def test_all_of_a_document_with_distributions_counts(values: str, tmp_path: Path
         source.write_bytes(ET.tostring(root))
         found = []
         for each in Batch(Folders()).run([source]):
-            if isinstance(each.imported, Refused):
-                return each.imported.reason
-            found.append((each.imported, each.distribution))
+            if isinstance(each, Refused):
+                return each.reason
+            found.append(each)
         out = tmp_path / "out"
         out.mkdir(exist_ok=True)
         write_settings(found, out)
         written = {file.name: file.read_bytes() for file in sorted(out.iterdir())}
         for file in out.iterdir():
             file.unlink()
-        reports = [(imported.text, imported.report.to_json()) for imported, _ in found]
+        reports = [(imported.text, imported.report.to_json()) for imported in found]
         return reports, written
 
     assert not silent(root, product)

@@ -5,11 +5,11 @@ from xml.etree import ElementTree as ET
 
 import pytest
 
+from osc2tx.importing.batch import Batch
 from osc2tx.importing.document import NOWHERE, Folders, Refused
 from osc2tx.importing.importer import Imported, import_document
 from osc2tx.importing.libraries import Library
 from osc2tx.importing.reach import Reach
-from osc2tx.importing.reading import import_file
 from osc2tx_shared.map_files import SHIPPED
 from tests.importing.documents import CAR, document
 from tests.importing.test_accounting import DETERMINISTIC, DISTRIBUTIONS, EVENTS, WITH_PARAMETER
@@ -112,9 +112,10 @@ def test_a_scenario_outside_of_the_project(project: Path, named: str) -> None:
     text = DISTRIBUTIONS.format(DETERMINISTIC)
     text = text.replace("two_cars.xosc", named.format(outside=outside))
     source = written(project, "values.xosc", text)
-    with pytest.raises(Refused, match="is not read") as caught:
-        import_file(source, "values", Library(), Folders())
-    assert caught.value.place is not None
+    (refused,) = Batch(Folders()).run([source])
+    assert isinstance(refused, Refused)
+    assert "is not read" in refused.reason
+    assert refused.place is not None
 
 
 def test_a_scenario_that_is_not_there_is_named(project: Path) -> None:
@@ -150,9 +151,10 @@ def test_texts(tmp_path: Path, text: str, reason: str) -> None:
 
 def test_a_range_of_too_many_values(project: Path) -> None:
     text = DISTRIBUTIONS.format(DETERMINISTIC).replace('stepWidth="2"', 'stepWidth="1e-9"')
-    with pytest.raises(Refused, match="a range of") as caught:
-        import_file(written(project, "values.xosc", text), "values", Library(), Folders())
-    assert caught.value.place is not None
+    (refused,) = Batch(Folders()).run([written(project, "values.xosc", text)])
+    assert isinstance(refused, Refused)
+    assert "a range of" in refused.reason
+    assert refused.place is not None
 
 
 def test_folders_above_without_version_control(tmp_path: Path) -> None:

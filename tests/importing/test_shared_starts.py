@@ -4,8 +4,8 @@ import math
 
 import pytest
 
-from osc2tx.importing.shared_starts import with_starts
 from osc2tx.importing.statements import Statement, When, call, composed, elapsed, wait
+from osc2tx.importing.wording import with_starts
 
 POINT = 'road.create_odr_point("1", "-1", 10m, 0m)'
 

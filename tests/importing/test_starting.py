@@ -2,7 +2,7 @@
 
 import pytest
 
-from osc2tx.importing.starting import is_straight_ahead
+from osc2tx.importing.ground import is_straight_ahead
 from osc2tx.xosc.player.bodies import Body, Pose
 from osc2tx_runtime.opendrive import LanePosition
 from tests.runtime.opendrive.small_maps import WIDTH, make_map, road_text, shape

@@ -2,10 +2,10 @@
 
 from pathlib import Path
 
-from osc2tx.importing.carla import is_of_carla, mirrored
 from osc2tx.importing.document import Folders
 from osc2tx.importing.importer import import_document
 from osc2tx.importing.libraries import Library
+from osc2tx.importing.substitution import is_of_carla, mirrored
 from osc2tx.xosc import read
 from tests.importing.documents import at_time, document, event, faults, imported
 
