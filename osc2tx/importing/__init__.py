@@ -7,8 +7,8 @@
    as texts), `conditions` (`entity_conditions`, `place_conditions`, `clearances`) and `actions`
    (`speeds` with `profiles`, `offsets`, `routes`, `synchrony`, `surroundings`), `signals` of both:
    the parts of the storyboard; `effects` has what their readers share
-4. `board`: the storyboard as `steps`, events with their triggers, one for each of their
-   `executions`; `structure`: the order of events as compositions of `statements` (`acts` that are
+4. `board`: the storyboard as `steps`, events with their triggers, one for each time that they are
+   executed; `structure`: the order of events as compositions of `statements` (`acts` that are
    stopped, `joining` what waits for several ends), `waiting` the triggers as waits, `starts` how
    actors begin, `endings` what ends the scenario, `whole` all together, `wording` in fewer words
 5. `declarations` and `program`: the text; `report`: how exactly it says what the document says

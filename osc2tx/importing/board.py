@@ -1,19 +1,24 @@
-"""Reads the stories of a document as steps."""
+"""Reads the stories of a document as steps.
+
+Events and groups that are executed several times are steps of their own each time. An execution
+starts when the one before it is over. A condition that is met at one instant is not met again; a
+time or an end that has come is not waited for again.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from contextlib import contextmanager
 
 from osc2tx.importing.actions import Actions
-from osc2tx.importing.conditions import Conditions, Trigger
+from osc2tx.importing.conditions import Condition, Conditions, Trigger
 from osc2tx.importing.cursor import Node
 from osc2tx.importing.effects import Effect
-from osc2tx.importing.executions import is_first, may_start_again, name_within, put_behind
 from osc2tx.importing.names import Names, short
 from osc2tx.importing.steps import Board, Step
 from osc2tx.importing.values import Values
 from osc2tx.xosc.element import Element, Unresolved
+from osc2tx_shared.classes import replace
 
 MOST_EXECUTIONS = 5
 """Of events and groups with more there is only the first one."""
@@ -88,9 +93,9 @@ class BoardReader:
             is_whole = all([self._maneuver(each, group, actors, act, number) for each in maneuvers])
             steps = self.board.steps[start:]
             if times > 1:
-                name_within(steps, self.board, execution)
+                _name_within(steps, self.board, execution)
             if before:
-                put_behind(steps, before, self.board)
+                _put_behind(steps, before, self.board)
             if execution + 1 < times and not self._repeats(steps, group, is_whole):
                 break
             before = steps
@@ -100,10 +105,10 @@ class BoardReader:
         """Whether what has been executed comes again as a whole; a finding says if parts do."""
         if not is_whole or not steps:
             return False
-        comes = [each for each in steps if may_start_again(each, steps, self.board)]
+        comes = [each for each in steps if _may_start_again(each, steps, self.board)]
         if len(comes) == len(steps):
             return True
-        if any(is_first(each, steps, self.board) for each in comes):
+        if any(_is_first(each, steps, self.board) for each in comes):
             count = self._values.fixed(node, "maximumExecutionCount", 1.0)
             node.approximate(ONLY_FIRST.format(count))
         return False
@@ -168,7 +173,7 @@ class BoardReader:
             step = Step(label, effects, (act, trigger), number, self._maneuvers, overrides, event)
             step.comments = self._comments_of(event.element)
             if steps:
-                put_behind([step], steps[-1:], self.board)
+                _put_behind([step], steps[-1:], self.board)
             steps.append(step)
             if len(steps) == times or not self._repeats([step], event, True):
                 break
@@ -186,3 +191,80 @@ class BoardReader:
         for action in event.children("Action"):
             for each in action.children():
                 yield from self._actions.effects(each, actors)
+
+
+def _may_start_again(step: Step, group: Collection[Step], board: Board) -> bool:
+    """Whether an event starts another time, if the events of its group do."""
+    return _again(step.triggers[1], group, board) is not None
+
+
+def _is_first(step: Step, group: Collection[Step], board: Board) -> bool:
+    """Whether an event waits for none of its group."""
+    conditions = (each for group_ in step.triggers[1].groups for each in group_)
+    return not any(_is_inside(each, group, board) for each in conditions)
+
+
+def _put_behind(steps: Sequence[Step], before: Sequence[Step], board: Board) -> None:
+    """Let the steps of an execution start when those of the one before it are over."""
+    for step in steps:
+        trigger = _again(step.triggers[1], steps, board)
+        assert trigger is not None, "only what may start again is executed again"
+        if _is_first(step, steps, board):
+            step.before = tuple(before)
+        step.triggers = Trigger(), trigger
+
+
+def _name_within(steps: Sequence[Step], board: Board, execution: int) -> None:
+    """Let conditions in an execution of a group be about the events of that execution."""
+    for step in steps:
+        act, event = step.triggers
+        groups = [[_named(each, steps, board, execution) for each in g] for g in event.groups]
+        step.triggers = act, Trigger(groups, event.node, event.after)
+
+
+def _named(condition: Condition, steps: Sequence[Step], board: Board, execution: int) -> Condition:
+    inside = _inside(condition, steps, board)
+    if not inside:
+        return condition
+    kind, name = condition.element
+    element = kind, f"{name} ({inside[0].label}, {execution})"
+    board.elements[element] = inside
+    return replace(condition, element=element)
+
+
+def _inside(condition: Condition, steps: Collection[Step], board: Board) -> list[Step]:
+    if condition.kind != "state":
+        return []
+    return [each for each in board.elements.get(condition.element, ()) if each in steps]
+
+
+def _is_inside(condition: Condition, steps: Collection[Step], board: Board) -> bool:
+    return bool(_inside(condition, steps, board))
+
+
+def _again(trigger: Trigger, steps: Collection[Step], board: Board) -> Trigger | None:
+    """Return what is waited for in another execution; `None`: it does not come again."""
+    groups = []
+    for group in trigger.groups:
+        found = [(each, _is_inside(each, steps, board)) for each in group]
+        if any(not inside and _is_momentary(each) for each, inside in found):
+            continue
+        groups.append([_lasting(each) for each, inside in found if inside or not _stays(each)])
+    return Trigger(groups, trigger.node, trigger.after) if groups or not trigger.groups else None
+
+
+def _is_momentary(condition: Condition) -> bool:
+    """Whether a condition is met at a single instant."""
+    return condition.is_once or condition.state.endswith("Transition")
+
+
+def _stays(condition: Condition) -> bool:
+    """Whether a condition is met for good once it is met."""
+    return condition.kind == "time" or condition.state == "completeState"
+
+
+def _lasting(condition: Condition) -> Condition:
+    """Return a condition on an event that has come as one on what it leaves behind."""
+    if condition.kind != "event" or not condition.kept:
+        return condition
+    return replace(condition, kind="expression", text=condition.kept)

@@ -1,4 +1,4 @@
-"""The parameters of a document, and its map, as declarations."""
+"""The header of a document as comments, its map and its parameters as declarations."""
 
 from __future__ import annotations
 
@@ -15,8 +15,32 @@ from osc2tx.importing.parameters import Parameter
 from osc2tx.importing.place_conditions import COMPARISONS
 from osc2tx.importing.program import ROAD, Declared
 from osc2tx.importing.report import ImportReport
+from osc2tx.importing.statements import LINE
 from osc2tx.importing.values import Values
 from osc2tx.xosc import Element
+
+
+def header_of(header: Node, name: str) -> list[str]:
+    """Return what the header of a document says, as comments: on one line if it fits there."""
+    said, author = (_told(header, each) for each in ("description", "author"))
+    found = said or name
+    rights = [author] if author else []
+    for licence in header.children("License"):
+        named = licence.text("spdxId")
+        if named:
+            licence.idle("its SPDX identifier says it", "name", "resource")
+        parts = [named] if named else [licence.text("name"), licence.text("resource")]
+        rights.append("licence: " + ", ".join(part for part in parts if part))
+    held = "; ".join(rights)
+    whole = f"{found.rstrip('.')} ({held})" if held else found
+    if len(whole) <= LINE - len("# ") and "\n" not in found:
+        return [whole]
+    return [each for each in (found, held) if each]
+
+
+def _told(header: Node, name: str) -> str:
+    """Return the text of an attribute; an empty one says nothing, which the report notes."""
+    return (header.text(name) or "") if header.element.get(name) else ""
 
 
 def map_of(root: Node, values: Values, shared: Shared) -> list[Declared]:

@@ -11,14 +11,13 @@ from osc2tx.importing.board import BoardReader
 from osc2tx.importing.cast import Cast
 from osc2tx.importing.conditions import Conditions
 from osc2tx.importing.cursor import Ledger
-from osc2tx.importing.declarations import Declarations, map_of
+from osc2tx.importing.declarations import Declarations, header_of, map_of
 from osc2tx.importing.distributions import NOTHING, Distribution, Open
 from osc2tx.importing.document import NOWHERE, Document, Folders, Refused
 from osc2tx.importing.effects import Readings
 from osc2tx.importing.endings import placed_beside
 from osc2tx.importing.expressions import Untyped
 from osc2tx.importing.ground import is_straight_ahead
-from osc2tx.importing.headers import header_of
 from osc2tx.importing.libraries import COMMON, Library, Shared
 from osc2tx.importing.marks import Marks
 from osc2tx.importing.names import Names

@@ -37,13 +37,8 @@ from osc2tx.importing.waiting import Waiting, lateness, minus, nominal_start, st
 AT_ONCE = elapsed("0s")
 
 
-class Structure:
-    """Finds the order of the events of a storyboard.
-
-    Attributes:
-        declared: What the order needs: events, overrides.
-        references: How often the scenario refers to statements, by their labels.
-    """
+class Structure(Waiting):
+    """Finds the order of the events of a storyboard."""
 
     def __init__(
         self, board: Board, name_event: Callable[[str], str], going_on: Mapping[str, Actor]
@@ -55,12 +50,8 @@ class Structure:
             name_event: Gives a name for an event of the scenario.
             going_on: How actors go on, by actor.
         """
-        self._board, self._going_on = board, going_on
-        self._waiting = Waiting(board, name_event)
-        self.declared = self._waiting.declared
-        self.waits = self._waiting.waits
-        self.references = self._waiting.references
-        self._predecessor = self._waiting.predecessor
+        super().__init__(board, name_event)
+        self._going_on = going_on
         blocks = blocks_of(board, name_event)
         self._scopes = [board.steps, *(block.inner for block in blocks)]
         for step in (each for scope in self._scopes for each in scope):
@@ -82,9 +73,9 @@ class Structure:
             scope: The steps of its act, or of the document.
             alike: Those before it that start when it does.
         """
-        found = self._waiting.last_of(step.before) if step.before else []
+        found = self._last_of(step.before) if step.before else []
         if len(found) > 1:
-            step.triggers = step.triggers[0], self._waiting.behind(step.triggers[1], step)
+            step.triggers = step.triggers[0], self._behind(step.triggers[1], step)
         found = found or [each for each in self._ends_in(step.trigger) if each is not step]
         if not found:
             found = [each for each in alike if replaces_at_once(step, each)][-1:]
@@ -110,7 +101,7 @@ class Structure:
             step
             for condition in trigger.groups[0]
             if condition.kind == "state" and condition.state in ENDS
-            for step in self._waiting.steps_of(condition)
+            for step in self._steps_of(condition)
         ]
 
     # --- compositions -----------------------------------------------------------------------------
@@ -150,7 +141,7 @@ class Structure:
         delays = {
             each.label: "" if end.delay is None else end.delay.text
             for end in ends
-            for each in self._waiting.steps_of(end)
+            for each in self._steps_of(end)
         }
         is_plain = all(each.kind == "expression" and lateness(each) == 0.0 for each in rest)
         if len(delays) > 1 and is_plain:
@@ -218,7 +209,7 @@ class Structure:
             for group in trigger.groups
             for condition in group
             if condition.kind == "state"
-            for step in self._waiting.steps_of(condition)
+            for step in self._steps_of(condition)
         }
 
     def _statement(self, step: Step) -> Statement:

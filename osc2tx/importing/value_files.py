@@ -6,9 +6,9 @@ import math
 from collections.abc import Iterator
 
 from osc2tx.importing.cursor import Ledger, Node
+from osc2tx.importing.declarations import header_of
 from osc2tx.importing.distributions import Distribution, Open
 from osc2tx.importing.document import Refused
-from osc2tx.importing.headers import header_of
 from osc2tx.importing.report import ImportReport
 from osc2tx.xosc import Element
 
@@ -35,13 +35,13 @@ def read_distribution(root: Element, report: ImportReport) -> Distribution:
         found.header = header_of(header, "")
     for kind in holder.children("Deterministic"):
         for each in kind.children():
-            _deterministic(each, found)
+            _distribution(each, found, "sets and ranges")
     for kind in holder.children("Stochastic"):
         found.is_drawn = True
         found.runs = _whole(kind, "numberOfTestRuns")
         found.seed = _whole(kind, "randomSeed")
         for each in kind.children():
-            _stochastic(each, found)
+            _distribution(each, found, "ranges and sets")
     ledger.close()
     return found
 
@@ -53,22 +53,29 @@ def _whole(node: Node, name: str) -> int:
         raise Refused(f"{name} of <{node.tag}> is no number", node.place) from None
 
 
-def _deterministic(node: Node, found: Distribution) -> None:
+def _distribution(node: Node, found: Distribution, only: str) -> None:
+    """Take what a parameter may be, or what several together may be."""
     name = node.text("parameterName") or ""
     for each in node.children():
-        if each.tag == "DistributionSet":
-            values = tuple(element.text("value") or "" for element in each.children("Element"))
-            found.open[name] = Open(values, place=node.place)
-            found.axes.append([{name: value} for value in values])
-        elif each.tag == "DistributionRange":
-            steps = tuple(_steps(each))
-            low, high = _limits(each)
-            found.open[name] = Open((), low, high, node.place)
-            found.axes.append([{name: value} for value in steps])
-        elif each.tag == "ValueSetDistribution":
-            _value_sets(each, found)
-        else:
-            each.leave_out("only sets and ranges are imported")
+        match each.tag:
+            case "DistributionSet" | "ProbabilityDistributionSet":
+                values = tuple(element.text("value") or "" for element in each.children("Element"))
+                found.open[name] = Open(values, place=node.place)
+                if each.tag == "DistributionSet":
+                    found.axes.append([{name: value} for value in values])
+                else:
+                    each.approximate("values are drawn evenly")
+            case "DistributionRange":
+                found.open[name] = Open((), *_limits(each), node.place)
+                found.axes.append([{name: value} for value in _steps(each)])
+            case "UniformDistribution" | "NormalDistribution" | "LogNormalDistribution":
+                found.open[name] = Open((), *_limits(each), node.place)
+                if each.tag != "UniformDistribution":
+                    each.approximate("values are drawn evenly from the range")
+            case "ValueSetDistribution":
+                _value_sets(each, found)
+            case _:
+                each.leave_out(f"only {only} are imported")
 
 
 def _value_sets(node: Node, found: Distribution) -> None:
@@ -83,22 +90,6 @@ def _value_sets(node: Node, found: Distribution) -> None:
     for key in dict.fromkeys(key for row in rows for key in row):
         texts = tuple(dict.fromkeys(row[key] for row in rows if key in row))
         found.open[key] = Open(texts, place=node.place)
-
-
-def _stochastic(node: Node, found: Distribution) -> None:
-    name = node.text("parameterName") or ""
-    for each in node.children():
-        if each.tag in ("UniformDistribution", "NormalDistribution", "LogNormalDistribution"):
-            low, high = _limits(each)
-            found.open[name] = Open((), low, high, node.place)
-            if each.tag != "UniformDistribution":
-                each.approximate("values are drawn evenly from the range")
-        elif each.tag == "ProbabilityDistributionSet":
-            texts = tuple(element.text("value") or "" for element in each.children("Element"))
-            found.open[name] = Open(texts, place=node.place)
-            each.approximate("values are drawn evenly")
-        else:
-            each.leave_out("only ranges and sets are imported")
 
 
 def _limits(node: Node) -> tuple[float, float]:

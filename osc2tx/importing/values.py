@@ -76,8 +76,8 @@ class Values:
 
         `None`, with a finding: there is none; `instead` tells what stands for it, if anything does.
         """
-        self.text(reference, "catalogName")
         said = self.text(reference, "entryName")
+        self.text(reference, "catalogName")
         for each in reference.children("ParameterAssignments"):
             each.use_all()
         found = self.document.entry(reference.element)

@@ -22,7 +22,6 @@ class Waiting:
 
     Attributes:
         declared: What the order needs: events, overrides.
-        predecessor: Steps by those behind them.
         references: How often the scenario refers to statements, by their labels.
     """
 
@@ -35,22 +34,22 @@ class Waiting:
         """
         self._board, self._name_event = board, name_event
         self.declared: list[Declared] = []
-        self.predecessor: dict[Step, Step] = {}
+        self._predecessor: dict[Step, Step] = {}
         self.references: Counter[str] = Counter()
         self._named: dict[str, str] = {}
 
-    def steps_of(self, condition: Condition) -> list[Step]:
+    def _steps_of(self, condition: Condition) -> list[Step]:
         """Return the last steps of what a condition is about."""
         found = self._board.elements.get(condition.element, [])
         if condition.state == "endTransition":  # of the first execution
             found = [each for each in found if not any(a in found for a in each.before)]
-        return self.last_of(found)
+        return self._last_of(found)
 
-    def last_of(self, steps: Sequence[Step]) -> list[Step]:
+    def _last_of(self, steps: Sequence[Step]) -> list[Step]:
         """Return those of some steps behind which none of them comes."""
-        return [each for each in steps if not any(self.predecessor.get(a) is each for a in steps)]
+        return [each for each in steps if not any(self._predecessor.get(a) is each for a in steps)]
 
-    def behind(self, trigger: Trigger, step: Step) -> Trigger:
+    def _behind(self, trigger: Trigger, step: Step) -> Trigger:
         """Return a trigger that waits for the execution before a step as well."""
         element = "execution", step.label
         self._board.elements[element] = list(step.before)
@@ -151,7 +150,7 @@ class Waiting:
         if condition.kind == "event":
             yield condition.text
             return
-        steps = self.steps_of(condition)
+        steps = self._steps_of(condition)
         if not steps:
             kind, name = condition.element
             condition.node.approximate(
