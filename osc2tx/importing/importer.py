@@ -254,8 +254,8 @@ class _Import:
         written = [*program.behavior, *(line for each in others for line in each.lines)]
         words = _words("\n".join(written))
         for parameter in reversed(self._values.parameters.values()):
-            parameter.is_used = parameter.name in words
-            if parameter.is_used and parameter.expression is not None:
+            parameter.is_used = parameter.expression is not None and parameter.name in words
+            if parameter.is_used:
                 try:
                     words |= _words(self._values.of_parameter(parameter))
                 except (Untyped, ValueError):
@@ -265,10 +265,9 @@ class _Import:
         self, program: Program, readings: Readings, actions: Actions, structure: Structure
     ) -> None:
         """Write what the behavior of a program reads."""
-        lights, declared = readings.lights, Declarations(
-            self._root, self._values, self._report, self._open, self._comments_of
-        )
-        members = map_of(self._root, self._values, self._shared)
+        values, lights = self._values, readings.lights
+        declared = Declarations(self._root, values, self._report, self._open, self._comments_of)
+        members = map_of(self._root, values, self._shared)
         if actions.surroundings.needs_environment:
             members.append(Declared(ENVIRONMENT, "environment"))
         if lights.is_switched:
@@ -291,9 +290,9 @@ class _Import:
     def _close(self) -> None:
         root = self._document.root
         for each, file in self._document.scoped:
-            what, said = f"parameter {each.get('name')}", f"{each.get('parameterType')}"
-            said = f"{said} {each.get('value')}"
-            self._report.note(what, said, "its value stands where it is used", each.place, file)
+            what, kind = f"parameter {each.get('name')}", each.get("parameterType")
+            said, reason = f"{kind} {each.get('value')}", "its value stands where it is used"
+            self._report.note(what, said, reason, each.place, file)
         for node, reason in self._document.refused:
             self._report.add(Finding("left out", f"<{node.tag}>", reason, node.place))
         version = version_of(root)
@@ -302,8 +301,7 @@ class _Import:
             wrong = problems_of_entry(entry, version)
             found += [(each.reason, f"{file}:{each.place or ''}") for each in wrong]
         self._report.problems = list(dict.fromkeys(found))
-        rest = [text for place, texts in self._comments.items() for text in texts]
-        for text in rest:
+        for text in (each for texts in self._comments.values() for each in texts):
             self._leave(text, "it belongs to nothing that is imported")
         self._ledger.close()
 

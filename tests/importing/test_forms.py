@@ -209,3 +209,11 @@ def test_a_trajectory_in_lanes_leads_along_points_of_the_map() -> None:
     assert "pose_3d" not in found.text
     assert faults(found) == []
     assert apart(found) < 0.1
+
+
+def test_a_text_with_the_name_of_an_argument_is_no_parameter_of_the_scenario() -> None:
+    declared = '<ParameterDeclaration name="target" parameterType="string" value="a"/>'
+    faster = event("Faster", speed_change("20"), at_time("3"))
+    found = imported(document(faster, parameters=declared))
+    assert "change_speed(target: 20mps" in found.text
+    assert found.text == imported(document(faster)).text
