@@ -100,7 +100,7 @@ class Shared:
         """Return the type of actors by a key, a new one if there is none yet.
 
         Args:
-            key: A catalog and its entry; of an entity that is in none, all that is said of it.
+            key: A catalog and its entry; of an entity that is in none, all its facts.
             said: What it is called.
             kind: The type whose actions it has.
             base: What it inherits.

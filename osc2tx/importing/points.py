@@ -158,5 +158,5 @@ def _metres(value: float) -> str:
 
 
 def _coordinates(x: float, y: float) -> list[str]:
-    """Return what is said of the coordinates of a point on the ground."""
+    """Return the constraints on the coordinates of a point on the ground."""
     return [f"x == {_metres(x)}", f"y == {_metres(y)}", "z == 0m"]
