@@ -37,7 +37,7 @@ from osc2tx.diagnostics import DiagnosticSink, SourceFile
 from osc2tx.options import CompileOptions
 from osc2tx.semantics import ASAM, ModelBuilder
 from osc2tx.stdlib.parsed import load_parsed
-from osc2tx.support.recursion import room_for_trees
+from osc2tx.support.recursion import allowing_deep_trees
 from osc2tx.syntax import parse
 from osc2tx.syntax.ast_transformer import ASTTransformer
 from osc2tx.syntax.parser import parse_tokens
@@ -125,7 +125,7 @@ def trivial(text: str) -> int:
 
 def stages_to_ast(source: SourceFile, sink: DiagnosticSink, runs: int) -> dict[str, float]:
     times = {}
-    with room_for_trees():
+    with allowing_deep_trees():
         table = TokenSource(source, sink).scan()
         times["lexing"] = best(lambda: TokenSource(source, sink).scan(), runs)
         times["parsing"] = times["AST"] = math.inf

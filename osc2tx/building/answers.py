@@ -17,7 +17,7 @@ from pathlib import Path
 from osc2tx.building.fingerprint import STARTED, tool_stamp
 from osc2tx.support.paths import SETTINGS_FILES
 from osc2tx.support.records import digest
-from osc2tx_shared.cache import cache_folder, forget_the_oldest, read_own, write_own
+from osc2tx_shared.cache import cache_folder, evict_oldest, read_own, write_own
 from osc2tx_shared.text import OutputError, StreamName, explain, is_watched, replay
 
 FORMAT = 1
@@ -82,7 +82,7 @@ class Answer:
             return
         states = [[path, *_state(path)] for path in looked_at]
         if write_own(self._place, json.dumps([code, states, printed]).encode()):
-            forget_the_oldest(self._place.parent, MOST_FILES)
+            evict_oldest(self._place.parent, MOST_FILES)
 
 
 def _with_settings(path: str) -> Iterator[str]:

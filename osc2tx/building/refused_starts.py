@@ -58,7 +58,7 @@ def report_refused_starts(compilation: Compilation, texts: RunTexts) -> None:
         if not _can_start(compilation, each, folders, on_any_map=asks_packages):
             continue
         compilation.depends_on_packages |= asks_packages
-        if not asks_packages or not _have_packages_actions():
+        if not asks_packages or not _packages_have_actions():
             scenarios.append(each)
     if scenarios:
         _report(compilation, scenarios, dict(texts), folders)
@@ -82,7 +82,7 @@ def _may_invoke_own_action(scenario: ir.Scenario) -> bool:
     )
 
 
-def _have_packages_actions() -> bool:
+def _packages_have_actions() -> bool:
     from osc2tx_runtime.language.actions.registry import methods
 
     return methods.is_extensible()

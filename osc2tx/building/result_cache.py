@@ -127,7 +127,7 @@ class ResultCache:
     def close(self) -> None:
         """Remove what has not been written for the longest time, where there is too much."""
         if self._store is not None:
-            self._store.forget_the_oldest()
+            self._store.evict_oldest()
 
     def _key(self, kind: Kind, job: Job, places: Places, text: bytes) -> str:
         is_link = not job.is_asked and job.path.is_symlink()

@@ -10,7 +10,7 @@ from typing import Any
 
 from osc2tx.building.results import OutputRecord
 from osc2tx.support.records import digest
-from osc2tx_shared.cache import forget_the_oldest, read_own, write_own
+from osc2tx_shared.cache import evict_oldest, read_own, write_own
 from osc2tx_shared.classes import replace
 
 FORMAT = 7
@@ -85,10 +85,10 @@ class ResultStore:
             raise ValueError(key)
         return data.decode()
 
-    def forget_the_oldest(self) -> None:
+    def evict_oldest(self) -> None:
         """Remove what has not been written for the longest time, where there is too much."""
         for folder in self._written:
-            forget_the_oldest(folder, MOST_FILES)
+            evict_oldest(folder, MOST_FILES)
 
     def _place(self, kind: str, name: str) -> Path:
         return self._folder / kind / name[:2] / name[2:]

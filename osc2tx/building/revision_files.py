@@ -139,7 +139,7 @@ def _lay_out(root: Path, commit: str, top: Path) -> Iterator[str]:
         except (FileExistsError, NotADirectoryError):
             raise _RefusedName(f"{entry.path!r} is there twice") from None
     for path, goal in links:
-        if not _leads_inside(top, path, goal):
+        if not _stays_inside(top, path, goal):
             yield f"{path} is a link out of the repository, which is not read"
             continue
         target = top / path
@@ -176,7 +176,7 @@ def _is_read(entry: Entry) -> bool:
     return place.suffix == ".osc" or place.name in SETTINGS_FILES or _is_map(entry)
 
 
-def _leads_inside(top: Path, path: str, goal: str) -> bool:
+def _stays_inside(top: Path, path: str, goal: str) -> bool:
     """Return whether a link stays below `top`; links that are there already do so."""
     place = os.path.realpath((top / path).parent / goal)
     return Path(place).is_relative_to(top)

@@ -145,7 +145,7 @@ def run_jobs(
     _work_in_pool(work, missing[1:], workers, done)
     for job in missing[1:]:
         if job not in results:
-            done(_work_alone(work, job))
+            done(_work_in_own_process(work, job))
     return [results[job] for job in jobs]
 
 
@@ -198,7 +198,7 @@ def _work_in_worker(work: Work, job: Job) -> FileResult:
     return work(job, _memory)
 
 
-def _work_alone(work: Work, job: Job) -> FileResult:
+def _work_in_own_process(work: Work, job: Job) -> FileResult:
     """Do the work on a file in a process of its own, so that it harms no other."""
     from concurrent.futures import BrokenExecutor
 

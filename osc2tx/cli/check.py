@@ -120,7 +120,7 @@ def check(
         bugs = [result.bug for result in results if result.bug]
         code, report = reporter.report(results, bugs, baselines=baselines)
         code = max(code, reporter.warn(baselines.outdated(whole)))
-        _say_levels(results, reporter)
+        _print_levels(results, reporter)
         reporter.say(f"checked {count_of(len(results), 'file')}: {found(report)}")
     code = max(code, outcome)
     if any(Path(path).is_dir() for path in paths):
@@ -151,7 +151,7 @@ def _checked(
         )
 
 
-def _say_levels(results: Sequence[FileResult], reporter: Reporter) -> None:
+def _print_levels(results: Sequence[FileResult], reporter: Reporter) -> None:
     """Print the levels of scenarios; of many in folders, only how many have which."""
     in_folders = [e for result in results if not result.job.is_asked for e in result.scenarios]
     counted = in_folders if len(in_folders) > MOST_LISTED else []

@@ -33,7 +33,7 @@ from osc2tx.diagnostics import Diagnostic, DiagnosticSink, SourceFile, Span
 from osc2tx.diagnostics.report import ScenarioEntry
 from osc2tx.options import CompileOptions
 from osc2tx.support.paths import real_path
-from osc2tx.support.recursion import room_for_trees
+from osc2tx.support.recursion import allowing_deep_trees
 from osc2tx.syntax import parse, read_source
 
 if TYPE_CHECKING:
@@ -205,7 +205,7 @@ class Compilation:
         if self.options.target != "xosc":
             from osc2tx.backends.py_trees.support import check_support
 
-            with room_for_trees():
+            with allowing_deep_trees():
                 check_support(self.ir, self.sink)
         self._report_missing_maps(self.ir)
         self.is_complete = keeps_rules and not self._failed()
@@ -228,7 +228,7 @@ class Compilation:
         from osc2tx.backends.py_trees.sharing import share
 
         assert self.ir is not None, "there is a module"
-        with room_for_trees():
+        with allowing_deep_trees():
             siblings = find_siblings(self.ir, self, self.alone, self._is_source)
             return share(self.declared, *siblings)
 
@@ -255,7 +255,7 @@ class Compilation:
             return None
         from osc2tx.backends.py_trees import emit
 
-        with room_for_trees():
+        with allowing_deep_trees():
             return emit(self.ir, self.sharing, is_formatted=is_formatted)
 
     def alone(self, imported: SourceFile) -> Compilation:
@@ -315,7 +315,7 @@ class Compilation:
             return ()
         from osc2tx.backends.xosc import emit
 
-        with room_for_trees():
+        with allowing_deep_trees():
             found = emit(self.ir, self.options.xml, self.path.parent, self.stem)
         for scenario in found:
             for place in scenario.map_places:
@@ -329,7 +329,7 @@ class Compilation:
             return self.xml
         from osc2tx.grading import Source, graded, unplayed
 
-        with room_for_trees():
+        with allowing_deep_trees():
             folder, module = self.path.parent, self.whole_module
             source = Source(self.ir, self.options, folder, module, self._findings)
             grade = graded if self.options.xml.verify else unplayed
@@ -411,7 +411,9 @@ class Compilation:
 
     def check(self) -> bool:
         """Run all stages that can report something; return whether there is no error."""
-        with room_for_trees():  # around all: no collection of garbage between the stages either
+        with (
+            allowing_deep_trees()
+        ):  # around all: no collection of garbage between the stages either
             return self.is_supported
 
     def _failed(self) -> bool:

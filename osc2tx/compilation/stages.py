@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from osc2tx.diagnostics import DiagnosticSink
-from osc2tx.support.recursion import room_for_trees
+from osc2tx.support.recursion import allowing_deep_trees
 
 if TYPE_CHECKING:
     from osc2tx.analysis import Analysis
@@ -29,7 +29,7 @@ def build_model(
         load=loader,
         import_help=loader.help_for,
     )
-    with room_for_trees():
+    with allowing_deep_trees():
         return builder.build(file)
 
 
@@ -39,7 +39,7 @@ def analyse_constraints(
     """Return the values that constraints allow, and the levels of the scenarios."""
     from osc2tx.analysis import analyse
 
-    with room_for_trees():
+    with allowing_deep_trees():
         return analyse(model, sink, options.one_of, first_come=options.dialect == "carla")
 
 
@@ -50,7 +50,7 @@ def lower_and_verify(
     from osc2tx.ir import verify
     from osc2tx.lowering import lower
 
-    with room_for_trees():
+    with allowing_deep_trees():
         module = lower(model, analysis.constraints, options, sink)
         if sink.has_errors:
             return None
@@ -62,6 +62,6 @@ def check_library_rules(module: Module, sink: DiagnosticSink) -> bool:
     """Report the calls that break a rule of the library; return whether there are none."""
     from osc2tx.rules import check_rules
 
-    with room_for_trees():
+    with allowing_deep_trees():
         check_rules(module, sink)
     return not sink.has_errors

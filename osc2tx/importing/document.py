@@ -204,7 +204,7 @@ class Document:
         folders = list(self._folders.catalogs)
         for node in self.tagged("Directory"):
             named = self.text_at(node.get("path") or "").replace("\\", "/")
-            if named and not _is_odd(named):
+            if named and not _is_impossible_path(named):
                 folders += [base / named for base in (self.folder, *self._folders.catalogs)]
         files: dict[Path, None] = {}
         for folder in folders:
@@ -258,7 +258,7 @@ class Document:
         """The file of the map; `None` if the document names none, or it is not found."""
         logic = self._logic
         named = "" if logic is None else self.text_at(logic.get("filepath") or "")
-        if not named or _is_odd(named):
+        if not named or _is_impossible_path(named):
             return None
         relative = Path(named.replace("\\", "/"))
         for folder in (self.folder, *self._folders.maps):
@@ -288,6 +288,6 @@ def _by_tag(root: Element) -> dict[str, list[Element]]:
     return found
 
 
-def _is_odd(named: str) -> bool:
+def _is_impossible_path(named: str) -> bool:
     """Whether no file has such a path."""
     return "\0" in named or len(named) > LONGEST_PATH

@@ -197,7 +197,7 @@ class Values:
             return Quantity(literal(node.value, wanted), 0.0)
         if isinstance(node, Name):
             return self._named(node, wanted)
-        if is_per_hour(node) and self._counts_hourly(node.left):
+        if is_per_hour(node) and self._has_hourly_unit(node.left):
             if wanted != SPEED:
                 raise Untyped("kph")
             return self._written(node.left, HOURLY)
@@ -279,7 +279,7 @@ class Values:
             if parameter is None:
                 raise Untyped(node.name)
             return parameter.dimension
-        if is_per_hour(node) and self._counts_hourly(node.left):
+        if is_per_hour(node) and self._has_hourly_unit(node.left):
             return SPEED
         left, right = self._dimension(node.left), self._dimension(node.right)
         if node.sign in "+-":
@@ -290,7 +290,7 @@ class Values:
             return known if node.sign == "*" or right is None else NUMBER / known
         return left * right if node.sign == "*" else left / right
 
-    def _counts_hourly(self, node: Expression) -> bool:
+    def _has_hourly_unit(self, node: Expression) -> bool:
         found = [self.parameters.get(name) for name in names_in(node)]
         return bool(found) and all(each is not None and each.dimension == HOURLY for each in found)
 

@@ -81,7 +81,7 @@ class Waiting:
         edges = [each for each in expressions if each.edge != "none"]
         late = max((lateness(each) for each in expressions), default=0.0)
         if late > 0.0 and (len(group) > len(expressions) or len(expressions) > 1):
-            self._say_delays(happenings, expressions, late)
+            self._report_delays(happenings, expressions, late)
         if times and behind is not None:
             times[0].node.approximate(
                 "the time counts from the start of the scenario; it is taken to have come"
@@ -118,7 +118,7 @@ class Waiting:
         return found
 
     @staticmethod
-    def _say_delays(
+    def _report_delays(
         happenings: Sequence[Condition], expressions: Sequence[Condition], late: float
     ) -> None:
         """Say where delays of conditions that count together cannot be told apart."""

@@ -25,7 +25,7 @@ from osc2tx.semantics.symbols import (
     ScenarioSymbol,
     StructSymbol,
 )
-from osc2tx.support.recursion import room_for_trees
+from osc2tx.support.recursion import allowing_deep_trees
 from osc2tx.syntax import ast
 from osc2tx_shared.classes import dataclass
 
@@ -59,7 +59,7 @@ class ModelBuilder:
 
     def build(self, root: ast.File) -> SemanticModel:
         """Check the program that starts at a file."""
-        with room_for_trees():
+        with allowing_deep_trees():
             try:
                 return self._build(root)
             except RecursionError:

@@ -7,7 +7,7 @@ import json
 from pathlib import Path
 from typing import Any
 
-from osc2tx_shared.cache import forget_the_oldest, read_own, write_own
+from osc2tx_shared.cache import evict_oldest, read_own, write_own
 
 MOST_FILES = 128  # in each of the 256 folders
 
@@ -49,4 +49,4 @@ class Records:
     def write(self, place: Path, record: dict[str, Any]) -> None:
         """Store a record; not being able to is no problem."""
         if write_own(place, json.dumps(record).encode()):
-            forget_the_oldest(place.parent, MOST_FILES)
+            evict_oldest(place.parent, MOST_FILES)

@@ -49,7 +49,7 @@ def collect_earlier_trees() -> None:
 
 
 @contextmanager
-def room_for_trees() -> Iterator[None]:
+def allowing_deep_trees() -> Iterator[None]:
     """Conditions for large and deep trees: no garbage collection, enough stack."""
     was_enabled = gc.isenabled()
     limit = sys.getrecursionlimit()

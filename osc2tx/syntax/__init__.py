@@ -23,7 +23,7 @@ from collections.abc import Collection, Iterator
 from pathlib import Path
 
 from osc2tx.diagnostics import DiagnosticSink, SourceFile, Span
-from osc2tx.support.recursion import room_for_trees
+from osc2tx.support.recursion import allowing_deep_trees
 from osc2tx.syntax import ast
 
 __all__ = ["parse", "read_source"]
@@ -62,7 +62,7 @@ def parse(
     from osc2tx.syntax.parser import parse_tokens
     from osc2tx.syntax.token_source import TokenSource
 
-    with room_for_trees():
+    with allowing_deep_trees():
         table = TokenSource(source, sink, allow=allow).scan()
         if not with_comments:
             table.comments.clear()

@@ -152,7 +152,7 @@ class CommentTable:
         """Return the comments at the end of the block that a token closes, for its owner."""
         return _texts(self._ends.pop(dedent, ()))
 
-    def hand_end_on(self, dedent: int) -> None:
+    def pass_end_comments_on(self, dedent: int) -> None:
         """Give those at the end of a block whose owner has no place for them to its last member."""
         self._below[dedent] = [*self._below.get(dedent, ()), *self._ends.pop(dedent, ())]
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from osc2tx.support.recursion import MOST_UNSEEN, room_for_trees
+from osc2tx.support.recursion import MOST_UNSEEN, allowing_deep_trees
 
 
 class Tree:
@@ -21,36 +21,36 @@ class Tree:
 def collecting() -> Iterator[None]:
     gc.collect()
     gc.enable()
-    with room_for_trees():
+    with allowing_deep_trees():
         Tree(MOST_UNSEEN + 1)
     yield
-    with room_for_trees():  # nothing is left to those that come
+    with allowing_deep_trees():  # nothing is left to those that come
         pass
 
 
 def test_trees_of_an_earlier_program_are_collected_before_the_next_one() -> None:
-    with room_for_trees():
+    with allowing_deep_trees():
         tree = Tree(MOST_UNSEEN + 1)
         found = weakref.ref(tree)
         del tree
         assert found() is not None, "nothing is collected while trees grow"
-    with room_for_trees():
+    with allowing_deep_trees():
         assert found() is None
 
 
 def test_few_objects_wait() -> None:
-    with room_for_trees():  # what the fixture left is collected
+    with allowing_deep_trees():  # what the fixture left is collected
         found = weakref.ref(Tree(100))
-    with room_for_trees():
+    with allowing_deep_trees():
         assert found() is not None
 
 
 def test_a_room_leaves_collection_as_it_was() -> None:
     gc.disable()
-    with room_for_trees(), room_for_trees():
+    with allowing_deep_trees(), allowing_deep_trees():
         assert not gc.isenabled()
     assert not gc.isenabled()
     gc.enable()
-    with room_for_trees():
+    with allowing_deep_trees():
         assert not gc.isenabled()
     assert gc.isenabled()

@@ -133,7 +133,7 @@ def is_bounded(model: SemanticModel, node: ast.Composition | ast.Invocation) -> 
     """Whether a member has a duration, an `until` or a goal of its own."""
     return has_duration(node) or any(
         isinstance(member, ast.UntilDirective)
-        or _speaks_of_duration(model, member)
+        or _constrains_duration(model, member)
         or _is_goal(model, member)
         for member in node.with_members
     )
@@ -142,7 +142,7 @@ def is_bounded(model: SemanticModel, node: ast.Composition | ast.Invocation) -> 
 def _is_goal(model: SemanticModel, member: ast.WithMember) -> bool:
     """Whether a modifier states a goal."""
     return isinstance(member, ast.ModifierApplication) and any(
-        _bounds(modifier) or _speaks_of_end(modifier)
+        _bounds(modifier) or _applies_at_end(modifier)
         for modifier in library_modifiers(model, member)
     )
 
@@ -153,7 +153,7 @@ def _bounds(modifier: ast.ModifierApplication) -> bool:
     return entry is not None and entry.bounds
 
 
-def _speaks_of_end(modifier: ast.ModifierApplication) -> bool:
+def _applies_at_end(modifier: ast.ModifierApplication) -> bool:
     return any(
         argument.name is not None
         and argument.name.text == "at"
@@ -165,20 +165,20 @@ def _speaks_of_end(modifier: ast.ModifierApplication) -> bool:
 def _states_own_duration(model: SemanticModel, member: ast.Statement) -> bool:
     """Whether a member of a scenario constrains how long that takes."""
     if isinstance(member, ast.ModifierApplication):
-        return _speaks_of_duration(model, member)
+        return _constrains_duration(model, member)
     return isinstance(member, ast.KeepConstraint) and any(
         isinstance(node, ast.NameExpression) and model.symbol_of(node) is DURATION
         for node in nodes_below(member)
     )
 
 
-def _speaks_of_duration(model: SemanticModel, member: ast.Statement) -> bool:
+def _constrains_duration(model: SemanticModel, member: ast.Statement) -> bool:
     """Whether a member constrains the duration, or applies a modifier that does."""
     if isinstance(member, ast.ModifierApplication):
         binding = model.bindings.get(member)
         callee = None if binding is None else binding.callee
         return isinstance(callee, sym.ModifierSymbol) and any(
-            _speaks_of_duration(model, part)
+            _constrains_duration(model, part)
             for part in callee.statements
             if isinstance(part, ast.KeepConstraint)
         )

@@ -228,7 +228,7 @@ def _report_emits(model: SemanticModel, usage: Usage, sink: DiagnosticSink) -> N
         symbol = model.symbol_of(emit.event)
         if not isinstance(symbol, sym.EventSymbol) or symbol.origin != "user":
             continue
-        if _is_made_to_be_invoked(symbol.owner):
+        if _needs_an_invoker(symbol.owner):
             continue  # an invoker may wait for its events
         if symbol in usage.awaited or set(_redeclared(usage, symbol)) & usage.awaited:
             continue
@@ -244,7 +244,7 @@ def _report_emits(model: SemanticModel, usage: Usage, sink: DiagnosticSink) -> N
         )
 
 
-def _is_made_to_be_invoked(owner: sym.TypeSymbol | None) -> bool:
+def _needs_an_invoker(owner: sym.TypeSymbol | None) -> bool:
     """Whether a behavior has an actor, which only an invocation names; `dut` has none."""
     actor = owner.actor if isinstance(owner, sym.BehaviorSymbol) else None
     return actor is not None and actor.origin != "prelude"

@@ -294,10 +294,14 @@ class ExpressionWriter:
             every = f"all(it in {self.write(node.right).within(Level.SUM)} for it in {left})"
             return PyExpr(every, Level.ATOM)
         if operator in INVERSES and _is_truth_value(node.right):
-            return self._as_told(node.left, left, holds=_is_true(node.right) == (operator == "=="))
+            return self._truth_comparison(
+                node.left, left, holds=_is_true(node.right) == (operator == "==")
+            )
         right = self.write(node.right)
         if operator in INVERSES and _is_truth_value(node.left):
-            return self._as_told(node.right, right, holds=_is_true(node.left) == (operator == "=="))
+            return self._truth_comparison(
+                node.right, right, holds=_is_true(node.left) == (operator == "==")
+            )
         if operator in COMPARISONS or operator == "in":
             # Python would read a chain `a < b < c` differently: both sides bind tighter.
             text = f"{left.within(Level.SUM)} {operator} {right.within(Level.SUM)}"
@@ -319,7 +323,7 @@ class ExpressionWriter:
             return self._binary(replace(operand, operator=inverse))
         return PyExpr(f"not {written.within(Level.NOT)}", Level.NOT)
 
-    def _as_told(self, operand: ir.Expression, written: PyExpr, *, holds: bool) -> PyExpr:
+    def _truth_comparison(self, operand: ir.Expression, written: PyExpr, *, holds: bool) -> PyExpr:
         """Write a truth value that is compared with `true` or `false`."""
         return written if holds else self._negated(operand, written)
 

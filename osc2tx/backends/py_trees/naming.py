@@ -185,7 +185,7 @@ class InvocationName:
 
 def composition_names(body: ir.Behavior) -> dict[ir.Behavior, str]:
     """Name the compositions of a scenario: label, else a description."""
-    nodes = _down_the_text(body)
+    nodes = _in_text_order(body)
     taken = _labels(nodes)
     names: dict[ir.Behavior, str] = {}
     for node in nodes:
@@ -197,7 +197,7 @@ def composition_names(body: ir.Behavior) -> dict[ir.Behavior, str]:
 
 def invocation_names(body: ir.Behavior) -> dict[ir.Behavior, InvocationName]:
     """Name the invocations of other scenarios: label, else scenario."""
-    nodes = [node for node in _down_the_text(body) if isinstance(node, ir.InvokeScenario)]
+    nodes = [node for node in _in_text_order(body) if isinstance(node, ir.InvokeScenario)]
     taken = _labels(nodes)
     names: dict[ir.Behavior, InvocationName] = {}
     written: set[tuple[str, ...]] = set()
@@ -281,7 +281,7 @@ def _acting(node: ir.InvokeScenario) -> tuple[str, ...]:
     return (node.key, who, *arguments)
 
 
-def _down_the_text(body: ir.Behavior) -> list[ir.Behavior]:
+def _in_text_order(body: ir.Behavior) -> list[ir.Behavior]:
     return sorted(ir.walk_behaviors(body), key=lambda node: node.span.start)
 
 

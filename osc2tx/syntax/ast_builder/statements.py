@@ -115,7 +115,7 @@ def build_block(b: Builder, block: Tree | None, place: Place) -> tuple[Any, ...]
     """Build the statements of a block."""
     if block is None:
         return ()
-    b.comments.hand_end_on(block.stop)
+    b.comments.pass_end_comments_on(block.stop)
     nodes = []
     for child in block.children:
         if child.__class__ is Grammar.StatementContext:

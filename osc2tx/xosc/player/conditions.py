@@ -101,7 +101,7 @@ class Conditions:
             return False
         groups, may_wait = self._groups_of(trigger)
         if may_wait:
-            return any([self._false_one(group) is None for group in groups])
+            return any([self._false_condition(group) is None for group in groups])
         return any([self._all_hold(group.children) for group in groups])
 
     def forget(self, trigger: Element) -> None:
@@ -120,7 +120,7 @@ class Conditions:
         times: list[float] = []
         changes: list[int | str] = []
         for group in groups:
-            condition = self._false_one(group)
+            condition = self._false_condition(group)
             assert condition is not None, "asked of triggers that do not fire"
             node = condition.inner.inner
             if node.tag == "SimulationTimeCondition":
@@ -131,7 +131,7 @@ class Conditions:
                 changes.append(_variable(node))
         return Awaited(tuple(times), tuple(changes))
 
-    def _false_one(self, group: Element) -> Element | None:
+    def _false_condition(self, group: Element) -> Element | None:
         """Return a false condition of a group, if there is one.
 
         The one of the last evaluation comes first, and those before it last: the conditions of a

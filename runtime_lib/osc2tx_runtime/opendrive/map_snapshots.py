@@ -9,7 +9,7 @@ import stat
 from dataclasses import replace
 from pathlib import Path
 
-from osc2tx_shared.cache import Snapshots, forget_the_oldest
+from osc2tx_shared.cache import Snapshots, evict_oldest
 
 from .packed_map import PackingError, pack, unpack
 from .reader import MapContent, read_content
@@ -47,7 +47,7 @@ def read_content_once(path: Path) -> MapContent:
     if _digest(path) == digest:  # unchanged meanwhile
         kept = SNAPSHOTS.save(name, digest, pack(content))
         if kept is not None:
-            forget_the_oldest(kept.parent, MOST_KEPT)
+            evict_oldest(kept.parent, MOST_KEPT)
     return content
 
 

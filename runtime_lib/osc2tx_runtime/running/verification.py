@@ -194,7 +194,7 @@ def verify(
         context.begin_step(step)
         for action, outcome in ends.get(step, ()):
             phases += 1
-            is_judged = _is_judged(run, round(time, 6), action, outcome)
+            is_judged = _is_verified(run, round(time, 6), action, outcome)
             (monitors.ends if is_judged else monitors.leaves)(action)
         if jumps:
             _show(world, states, time)
@@ -204,7 +204,7 @@ def verify(
     return Verification(phases, tuple(monitors.violations))
 
 
-def _is_judged(run: RecordedRun, time: float, action: Action, outcome: str) -> bool:
+def _is_verified(run: RecordedRun, time: float, action: Action, outcome: str) -> bool:
     """Whether the phase of an action counts: it ended, and was not interrupted."""
     if (time, action.name) in run.overridden:
         return False

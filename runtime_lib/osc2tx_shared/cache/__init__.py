@@ -8,7 +8,7 @@ imports the standard library.
 
 from __future__ import annotations
 
-from osc2tx_shared.cache.own_files import cache_folder, forget_the_oldest, read_own, write_own
+from osc2tx_shared.cache.own_files import cache_folder, evict_oldest, read_own, write_own
 from osc2tx_shared.cache.snapshots import Snapshots
 
-__all__ = ["Snapshots", "cache_folder", "forget_the_oldest", "read_own", "write_own"]
+__all__ = ["Snapshots", "cache_folder", "evict_oldest", "read_own", "write_own"]

@@ -76,7 +76,7 @@ def write_own(path: Path, data: bytes) -> bool:
     return True
 
 
-def forget_the_oldest(folder: Path, most: int) -> None:
+def evict_oldest(folder: Path, most: int) -> None:
     """Keep only this number of files of a folder, the most recent ones."""
     try:
         files = [(entry.stat().st_mtime_ns, entry.path) for entry in os.scandir(folder)]

@@ -214,10 +214,10 @@ class Leaf:
         `None`: that is not known, or may have changed since.
         """
         apart = self.ctx.init_gaps.get((self.member.name, reference.name))
-        is_so = self.is_start or (apart is not None and self._keeps_apart_from(reference))
+        is_so = self.is_start or (apart is not None and self._keeps_pace_with(reference))
         return apart if is_so else None
 
-    def _keeps_apart_from(self, reference: CastMember) -> bool:
+    def _keeps_pace_with(self, reference: CastMember) -> bool:
         """Whether both have been equally fast in their lanes from the start of the run on."""
         ctx, begin = self.ctx, begin_of(self.ctx, self.node)
         speed = ctx.at_start[self.member.name].known_speed

@@ -49,12 +49,12 @@ def axles(ctx: Context, member: CastMember) -> list[xml.AxlesPart]:
     ]
     name = member.actor.name
     listed = ctx.values.field(name, "axles")
-    found = [_as_said(ctx, name, ("axles", str(i)), axle) for i, axle in enumerate(usual)]
+    found = [_constrained_axle(ctx, name, ("axles", str(i)), axle) for i, axle in enumerate(usual)]
     if isinstance(listed, tuple) and listed:
         front, rear = usual
         default = [front, *[rear] * (len(listed) - 1)] if len(listed) > 1 else [rear]
         made = [
-            _as_said(ctx, each.name if isinstance(each, Named) else "", (), like)
+            _constrained_axle(ctx, each.name if isinstance(each, Named) else "", (), like)
             for each, like in zip(listed, default, strict=True)
         ]
         found = sorted(made, key=lambda axle: -axle.position_x)
@@ -70,7 +70,7 @@ def axles(ctx: Context, member: CastMember) -> list[xml.AxlesPart]:
     ]
 
 
-def _as_said(ctx: Context, name: str, path: tuple[str, ...], usual: Axle) -> Axle:
+def _constrained_axle(ctx: Context, name: str, path: tuple[str, ...], usual: Axle) -> Axle:
     """Return an axle with the constraints on it below a path of an object, else as usual."""
     said = {part: ctx.values.number_in(name, *path, part) for part in Axle._fields}
     return usual._replace(**{part: v for part, v in said.items() if v is not None})

@@ -167,7 +167,7 @@ class ScenarioInitializer(StartRoom[ActorStart]):
                 taken_by=lambda place: self._taken_by(start, place),
                 draws=self._context.random_for(f"{actor.id} start"),
             )
-            other = self._who_is_at(actor, initial.at, initial.heading)
+            other = self._occupant_at(actor, initial.at, initial.heading)
             if other is not None:
                 raise PlacementError(f"{actor.id} overlaps {other} at its start")
             self._world.place(actor.id, *initial)
@@ -193,13 +193,13 @@ class ScenarioInitializer(StartRoom[ActorStart]):
         centre = place._replace(offset=0.0) if place.offset else place
         if self.was_tried(start, centre):
             return "another actor"
-        return self._who_is_at(start.actor, place)
+        return self._occupant_at(start.actor, place)
 
     def _spawn(self, actor_id: str) -> LanePosition | None:
         given = self._context.settings.spawn.get(actor_id)
         return None if given is None else LanePosition(*given)
 
-    def _who_is_at(
+    def _occupant_at(
         self, actor: PhysicalObject, at: LanePosition | Pose, heading: float | None = None
     ) -> str | None:
         """The actors placed so far."""

@@ -148,10 +148,10 @@ class BaseAction(Leaf):
         status = self._content()
         if limits is None:
             return status
-        holds = status is SUCCESS and self.fills_its_time()
+        holds = status is SUCCESS and self.lasts_its_duration()
         return limits.judge(RUNNING if holds else status, holds or self.registered.ends == "open")
 
-    def fills_its_time(self) -> bool:
+    def lasts_its_duration(self) -> bool:
         """Return whether the reached state continues for its duration."""
         return self.registered.ends != "goal"
 

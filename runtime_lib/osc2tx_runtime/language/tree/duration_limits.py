@@ -166,9 +166,9 @@ class DurationLimits:
         if status is FAILURE:
             return status
         if status is SUCCESS:
-            return self._judge_end(late)
+            return self._check_end(late)
         if open_ended:
-            return self._judge_open()
+            return self._check_open()
         if step < self._high[0]:
             return RUNNING
         if step == self._high[0] and not context.settled:
@@ -179,7 +179,7 @@ class DurationLimits:
             return SUCCESS
         return self._node.fail(f"not finished within {self._seconds[1]:g} s{self._unfinished()}")
 
-    def _judge_end(self, late: float) -> Status:
+    def _check_end(self, late: float) -> Status:
         """Judge content that ends on its own."""
         if self.is_early(late) and not self._node.context.first_come:
             over = self._node.lasted(late)
@@ -190,7 +190,7 @@ class DurationLimits:
             self.late = self._low[1]
         return SUCCESS
 
-    def _judge_open(self) -> Status:
+    def _check_open(self) -> Status:
         """Judge open-ended content."""
         context = self._node.context
         end, late = self._end

@@ -222,7 +222,7 @@ class Occurrences:
         self._seen = context.tick
 
     @property
-    def comes_by_itself(self) -> bool:
+    def needs_no_evaluation(self) -> bool:
         """Whether no evaluation is needed until an event occurs."""
         return self._holds is None
 
@@ -262,7 +262,7 @@ def rest_until(node: Behaviour, watches: Sequence[Watch], context: ExecutionCont
             asked.append(each)
         elif isinstance(each, Deadline):
             resting.until(node, each.step)
-        elif not (isinstance(each, Occurrences) and each.comes_by_itself):
+        elif not (isinstance(each, Occurrences) and each.needs_no_evaluation):
             return
     if asked:
         resting.unless(node, asked)

@@ -52,7 +52,7 @@ class Attendance:
             return
         complain(f"waiting for control ({self.patience:g} s at most; Enter begins at once)")
         end = time.monotonic() + self.patience
-        while not client.ask("controlled", actors) and not _is_told_to_begin():
+        while not client.ask("controlled", actors) and not _was_enter_pressed():
             if time.monotonic() > end:
                 waited = f"{self.patience:g} s"
                 raise SimulatorError(
@@ -89,7 +89,7 @@ class Attendance:
         return [("place", self._camera, *transform_of(behind))]
 
 
-def _is_told_to_begin() -> bool:
+def _was_enter_pressed() -> bool:
     """Return whether Enter was pressed at the terminal."""
     if not sys.stdin.isatty() or not select.select([sys.stdin], [], [], 0.0)[0]:
         return False

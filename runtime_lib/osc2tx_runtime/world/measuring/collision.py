@@ -167,7 +167,7 @@ def touch(one: Swept, other: Swept) -> bool:
         return _meet(a, a_end, b, b_end, 0.0)
     if contact_interval(a, b, 0.0, 0.0) is not None:
         return True
-    return _meet_turning((a, a_end, turns[0]), (b, b_end, turns[1]), 0.0, 1.0)
+    return _touch_while_turning((a, a_end, turns[0]), (b, b_end, turns[1]), 0.0, 1.0)
 
 
 def _meet(a: Box, a_end: Box, b: Box, b_end: Box, slack: float) -> bool:
@@ -182,7 +182,7 @@ _Sweep = tuple[Box, Box, float]
 """A box at start and end of a step, and its turn (rad)."""
 
 
-def _meet_turning(one: _Sweep, other: _Sweep, begin: float, end: float) -> bool:
+def _touch_while_turning(one: _Sweep, other: _Sweep, begin: float, end: float) -> bool:
     """True if two boxes touch within a part of a step.
 
     The boxes are evaluated with the heading at the middle of the part. Their corners then deviate
@@ -197,7 +197,9 @@ def _meet_turning(one: _Sweep, other: _Sweep, begin: float, end: float) -> bool:
         return False
     if slack < _NEAR:
         return _meet(a, a_end, b, b_end, 0.0)
-    return _meet_turning(one, other, begin, middle) or _meet_turning(one, other, middle, end)
+    return _touch_while_turning(one, other, begin, middle) or _touch_while_turning(
+        one, other, middle, end
+    )
 
 
 def _swing(sweep: _Sweep) -> float:

@@ -133,7 +133,7 @@ class Contacts:
         if self._gone + self._way > self._room or not looked_at <= self._sought:
             self._seek(looked_at)
         self._gone += self._way
-        touching = list(self._found(begin)) if self._is_anybody_due() else ()
+        touching = list(self._found(begin)) if self._is_any_pair_due() else ()
         if touching or self._touching:
             stay = [pair for pair in self._touching if self._sought.isdisjoint(pair)]
             self._compare(ids, [*touching, *stay], coupled)
@@ -179,7 +179,7 @@ class Contacts:
         self._apart = {pair: self._apart[pair] for pair in pairs if pair in self._apart}
         self._gone, self._room = 0.0, margin
 
-    def _is_anybody_due(self) -> bool:
+    def _is_any_pair_due(self) -> bool:
         """Whether a pair is due in this step."""
         due, evenly = self._due, self._due_evenly
         if self._close or (due and due[0][0] <= self._gone):
@@ -210,14 +210,14 @@ class Contacts:
                     self._apart[i, j] = found
             if room <= _ROUNDING:
                 self._close.append((0.0, i, j, reach))
-            elif found is not None and self._go_evenly(begin, i, j):
+            elif found is not None and self._move_uniformly(begin, i, j):
                 nearer = found.distance(begin[i], begin[j]) - found.distance(one, other)
                 steps = (room - _ROUNDING) // max(nearer, _CREEP)
                 heappush(self._due_evenly, (self._steps + max(steps, 1.0), i, j, reach))
             else:
                 heappush(self._due, (self._gone + 0.5 * (room - _ROUNDING), i, j, reach))
 
-    def _go_evenly(self, begin: Sequence[ActorState], i: int, j: int) -> bool:
+    def _move_uniformly(self, begin: Sequence[ActorState], i: int, j: int) -> bool:
         """Whether both move uniformly, or stand still."""
         end = self._states
         is_told = i in self._uneven or j in self._uneven

@@ -98,7 +98,7 @@ def reach(leaf: Leaf, gap: Gap, *, keeps: bool, missing: float | None = None) ->
     (m) at the start may be unknown.
     """
     if gap.is_lateral:
-        return _reach_sideways(leaf, gap, keeps=keeps, missing=missing)
+        return _reach_lateral_gap(leaf, gap, keeps=keeps, missing=missing)
     size, freespace = _measured(leaf, gap)
     if missing is None and not (keeps and gap.is_time):
         missing = _missing(leaf, gap)
@@ -137,7 +137,7 @@ def reach(leaf: Leaf, gap: Gap, *, keeps: bool, missing: float | None = None) ->
     return leaf.at_open_speed(longitudinal(action), inf if keeps else None)
 
 
-def _reach_sideways(leaf: Leaf, gap: Gap, *, keeps: bool, missing: float | None) -> Change:
+def _reach_lateral_gap(leaf: Leaf, gap: Gap, *, keeps: bool, missing: float | None) -> Change:
     if gap.is_time:
         raise Inexpressible("there is no time across the road in OpenSCENARIO XML")
     newer = leaf.ctx.version >= "1.1"

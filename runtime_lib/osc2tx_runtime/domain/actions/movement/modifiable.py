@@ -196,11 +196,11 @@ class ModifiableAction(ModifiedMotion):
             self._toward = follow_reference(self)
         if speed is not None:
             self.command(LONGITUDINAL, speed)
-        elif self._cares_for_others:
+        elif self._avoids_collisions_only:
             super().command(LONGITUDINAL, Careful(None))
         if side is not None:
             self.command(LATERAL, side)
-        self._waits = self._has_nothing_to_see_to()
+        self._waits = self._is_passive()
 
     def command(self, slot: str, command: Command) -> None:
         """Command the actor, with collision avoidance if a modifier requires it."""
@@ -208,7 +208,7 @@ class ModifiableAction(ModifiedMotion):
         super().command(slot, Careful(command) if careful else command)
 
     @property
-    def _cares_for_others(self) -> bool:
+    def _avoids_collisions_only(self) -> bool:
         """Whether it has no command for the speed, but avoids collisions."""
         return LONGITUDINAL in self.slots and LONGITUDINAL not in self.own and self._careful()
 
@@ -219,7 +219,7 @@ class ModifiableAction(ModifiedMotion):
         standard = self.context.settings.conduct == "standard"
         return standard and not self.may_jump and isinstance(CARE, self.accepts)
 
-    def _has_nothing_to_see_to(self) -> bool:
+    def _is_passive(self) -> bool:
         """Whether it has no further commands, and ends only by progress or time."""
         watched = (self._to_cover, self._watched, self._toward, self._phase, self.orient)
         return (

@@ -57,7 +57,7 @@ class ChangeSpeed(RatedChange):
         if not self._is_there:
             self.command(LONGITUDINAL, change)
 
-    def fills_its_time(self) -> bool:
+    def lasts_its_duration(self) -> bool:
         """Whether the speed is already reached, and remains for the duration."""
         return self._is_there
 
