@@ -186,6 +186,7 @@ class Until(Node, Decorator):
             self._limits.until = self.name
         self._happened: list[Watch] = []
         self._late: float | None = None
+        self._has_begun = False
         self._has_ended = False
 
     def setup(self, **kwargs: Any) -> None:
@@ -205,7 +206,7 @@ class Until(Node, Decorator):
 
     def initialise(self) -> None:
         """Start watching."""
-        self._late, self._has_ended = None, False
+        self._late, self._has_begun, self._has_ended = None, False, False
         self._happened = [watch(condition, None, self.context) for condition in self.conditions]
 
     def lateness(self) -> float:
@@ -234,6 +235,7 @@ class Until(Node, Decorator):
     def _run_behavior(self) -> Status:
         """Run it for one pass, unless it rests."""
         resting, behavior = self.context.resting.nodes, self.decorated
+        self._has_begun = True
         status = RUNNING if behavior in resting else self._pulse_child()
         if status is SUCCESS and not self._may_end():
             self._has_ended = True
@@ -246,7 +248,9 @@ class Until(Node, Decorator):
         """Succeed, unless the duration of the behavior requires more time."""
         limits = self._limits
         late = self._late or 0.0
-        if limits is None or self.context.first_come or not limits.is_early(late):
+        if limits is None or self.context.first_come:
+            return SUCCESS
+        if not (limits.is_early(late) if self._has_begun else limits.seconds[0] > 0.0):
             return SUCCESS
         after = self.lasted(late)
         return self.fail(f"{self.name} ends it after {after:g} s, its duration is {limits.text}")
