@@ -145,6 +145,8 @@ def _restored(record: Mapping[str, Any], lines: Sequence[str]) -> Finding:
         record["is_off_road"],
         record["is_at_fork"],
     )
+    place, speed, time, events, runs, omitted = record["measured"]
+    measured = Measured(place, speed, time, events, runs, tuple(omitted))
     pairs = zip(lines, record["starts"], strict=True)
     starts = {line: at for line, at in pairs if at is not None}
-    return Finding(Measured(*record["measured"]), deviation, starts, record["is_faithful"])
+    return Finding(measured, deviation, starts, record["is_faithful"])

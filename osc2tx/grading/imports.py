@@ -23,8 +23,9 @@ from osc2tx_runtime import RunSettings, Scenario
 from osc2tx_runtime.domain.map.search import find_map
 from osc2tx_runtime.opendrive import MapError
 from osc2tx_shared.classes import dataclass, replace
+from osc2tx_shared.steps import DEFAULT_STEP
 
-COARSE, FINE, FINEST = 0.05, 0.02, 0.0025  # s: lengths of steps
+COARSE, FINE, FINEST = DEFAULT_STEP, 0.02, 0.0025  # s: lengths of steps
 NEAR = 1.0  # m: a smaller deviation may come from a late event at speed, which a shorter step shows
 SHRINKS = 1.15
 """A deviation is proportional to the step with at most so much more of it."""

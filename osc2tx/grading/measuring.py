@@ -36,8 +36,9 @@ from osc2tx_runtime import RunSettings, Scenario
 from osc2tx_runtime.opendrive import RoadMap
 from osc2tx_shared.classes import dataclass, replace
 from osc2tx_shared.map_files import map_places
+from osc2tx_shared.steps import DEFAULT_STEP
 
-COARSE, FINE, FINEST = 0.05, 0.02, 0.01  # s: lengths of steps
+COARSE, FINE, FINEST = DEFAULT_STEP, 0.02, 0.01  # s: lengths of steps
 SUSPECT = 0.3  # m: at coarse steps, the delay of events may hide so much
 LONGEST = 300.0  # s: as a run of the module
 MOST_ACTOR_STEPS = 60_000
@@ -108,11 +109,12 @@ class Measuring:
         self._map()  # without it there is no run at all
         results = [self._judged({})]
         kept = None if self._found.parameters is None else read(self._found.parameters)
+        omitted: dict[str, None] = {}  # reasons; constraints may leave no room for a corner
         for values in corners(kept):
             try:
                 results.append(self._judged(values))
-            except NoEvidence:
-                continue  # constraints or the map leave no room for this corner
+            except NoEvidence as error:
+                omitted[str(error)] = None
         if not self._chooses:  # the world draws, and what it has drawn is one of the rows
             results = [min(results, key=lambda each: each.deviation.place)]
         worst = max(results, key=lambda each: (not each.is_faithful, each.deviation.place))
@@ -122,6 +124,7 @@ class Measuring:
             time=max(each.deviation.time for each in results),
             events=max(len(each.deviation.problems) for each in results),
             runs=len(results),
+            omitted=tuple(omitted),
         )
         return replace(worst, measured=measured)
 

@@ -71,6 +71,7 @@ class Measured:
         time: Between the times of an event, or of the end (s).
         events: Events that are missing, too late or in another order.
         runs: Number of runs.
+        omitted: Why runs with limits of open ranges showed nothing, each reason once.
     """
 
     place: float
@@ -78,6 +79,7 @@ class Measured:
     time: float
     events: int = 0
     runs: int = 1
+    omitted: tuple[str, ...] = ()
 
     def __str__(self) -> str:
         events = f", with {self.events} other event{'s' * (self.events > 1)}" * bool(self.events)

@@ -24,7 +24,8 @@ def report_json(report: LossReport) -> str | None:
     exact = [entry for entry in report.entries if entry.grade is Grade.EXACT]
     lost = [_entry_data(entry, report.module) for entry in report.losses]
     notes = dict.fromkeys(f"{entry.construct}: {entry.reason}" for entry in exact if entry.reason)
-    if not lost and not notes and not report.unmeasured:
+    omitted = report.measured.omitted if report.measured is not None else ()
+    if not (lost or notes or report.unmeasured or omitted):
         return None
     head: dict[str, object] = {
         "format": FORMAT,
@@ -36,7 +37,8 @@ def report_json(report: LossReport) -> str | None:
         "written": report.is_expressible,
     }
     if report.measured is not None:
-        head["measured"] = {"runs": report.measured.runs, **report.measured.values()}
+        measured: dict[str, object] = {"runs": report.measured.runs, **report.measured.values()}
+        head["measured"] = {**measured, "omitted": omitted} if omitted else measured
     elif report.unmeasured:
         head["unmeasured"] = report.unmeasured
     lists: dict[str, Sequence[object]] = {

@@ -103,8 +103,6 @@ class ScenarioState:
         object_events: Events of its objects that it waits for, by path.
         object_variables: Sampled variables of its objects that it reads, by path: the field, and
             the object.
-        constants: Values of parameters that constraints set to a constant, with the rest of their
-            domains.
     """
 
     globals: dict[str, FieldSymbol] = field(default_factory=dict)
@@ -115,7 +113,6 @@ class ScenarioState:
     methods: dict[str, MethodSymbol] = field(default_factory=dict)
     object_events: dict[str, ir.Event | None] = field(default_factory=dict)
     object_variables: dict[str, tuple[FieldSymbol, ir.Expression]] = field(default_factory=dict)
-    constants: dict[Constraint, tuple[Setting, Domain | None]] = field(default_factory=dict)
 
     def ahead(self) -> ScenarioState:
         """Return a state to look ahead with: it knows what this one knows, which stays as it is."""
@@ -127,7 +124,6 @@ class ScenarioState:
             methods=dict(self.methods),
             object_events=dict(self.object_events),
             object_variables=dict(self.object_variables),
-            constants={},
         )
 
 
@@ -139,6 +135,8 @@ class LoweringContext:
         program: The checked program.
         used: The declarations that its scenarios use.
         sink: Receives the diagnostics.
+        constants: Values of parameters that constraints set to a constant, with the rest of their
+            domains; the same in all scenarios that inherit them.
         state: The state of the lowering of the scenario.
         own_names: Names of the members of the scenario.
         same_actors: The actors of the scenario that are equal to others.
@@ -155,6 +153,7 @@ class LoweringContext:
     program: Program
     used: UsedDeclarations
     sink: DiagnosticSink
+    constants: dict[Constraint, tuple[Setting, Domain | None]] = field(default_factory=dict)
     state: ScenarioState = field(default_factory=ScenarioState)
     own_names: frozenset[str] = frozenset()
     same_actors: Mapping[FieldSymbol, SameActor] = field(default_factory=dict)
@@ -220,7 +219,7 @@ class LoweringContext:
 
     def quiet(self) -> LoweringContext:
         """Return a context to look ahead with: nothing is reported, and nothing is noted."""
-        return self._with(sink=DiagnosticSink(), state=self.state.ahead())
+        return self._with(sink=DiagnosticSink(), constants={}, state=self.state.ahead())
 
     def draw(
         self, name: str, domain: ir.Domain | None, type_: ir.ValueType, span: Span | None = None

@@ -8,8 +8,7 @@ from osc2tx.diagnostics.fixes import insert_before
 from osc2tx.semantics import SemanticModel
 from osc2tx.semantics.units import to_si
 from osc2tx.syntax import ast
-
-STEP = 0.05  # s, the default step size of a run
+from osc2tx_shared.steps import DEFAULT_STEP
 
 
 def report_times(model: SemanticModel, nodes: NodesByKind, sink: DiagnosticSink) -> None:
@@ -58,11 +57,11 @@ def _report_short(
     if not isinstance(duration, ast.PhysicalLiteral) or duration not in model.units:
         return
     seconds = to_si(duration.value, model.units[duration])
-    if 0.0 < seconds < STEP:
+    if 0.0 < seconds < DEFAULT_STEP:
         sink.report(
             "OSC440",
             duration.span,
-            f"{seconds:g} s is shorter than the step of a run, which is {STEP:g} s by default:"
-            " the wait has no effect",
+            f"{seconds:g} s is shorter than the step of a run, which is {DEFAULT_STEP:g} s by"
+            " default: the wait has no effect",
             help=f"wait longer, or run it with `--dt {seconds:g}`",
         )

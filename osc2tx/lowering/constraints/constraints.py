@@ -99,11 +99,11 @@ class ConstraintLowering:
         """
         if only.subject != key or not only.operations.is_plain or only.is_range:
             return None
-        if only not in self.ctx.state.constants:
+        if only not in self.ctx.constants:
             setting = self._setting(key, type_, (only,))
-            self.ctx.state.constants[only] = setting, self._written.get(key)
+            self.ctx.constants[only] = setting, self._written.get(key)
             return setting
-        setting, written = self.ctx.state.constants[only]
+        setting, written = self.ctx.constants[only]
         if written is not None:
             self._written[key] = written
         self._used.add(only)

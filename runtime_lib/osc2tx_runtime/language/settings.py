@@ -12,6 +12,7 @@ from typing import Any
 from osc2tx_runtime.errors import SettingsError
 from osc2tx_runtime.world.protocol import ControlMode
 from osc2tx_shared.classes import dataclass
+from osc2tx_shared.steps import DEFAULT_STEP
 
 MOST_STEPS = 100_000_000
 """Upper limit of the length of a run (steps): hours of computing."""
@@ -63,7 +64,7 @@ class RunSettings:
     set: Mapping[str, float | str] = field(default_factory=dict)
     seed: int = 0
     draw: int = 0
-    dt: float = 0.05
+    dt: float = DEFAULT_STEP
     max_time: float = 300.0
     trace: Path | None = None
     report: Path | None = None

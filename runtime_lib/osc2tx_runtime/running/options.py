@@ -12,6 +12,7 @@ from osc2tx_runtime.plain_numbers import to_float, to_int
 from osc2tx_runtime.world.protocol import ControlMode
 from osc2tx_runtime.worlds import Option, find_world
 from osc2tx_runtime.worlds.world_type import NUMBER_AND_UNIT, parse_pair, parse_seconds
+from osc2tx_shared.steps import DEFAULT_STEP
 
 CONTROLS: tuple[str, ...] = get_args(ControlMode)
 
@@ -161,7 +162,11 @@ OPTIONS: tuple[Option, ...] = (
     Option("set", "NAME=VALUE", "value of a parameter: v=60kph, or in SI units", parse_set, dict),
     Option("seed", "N", "seed of all that is sampled", parse_seed, default=0),
     Option(
-        "dt", "SECONDS", "length of a step", lambda t: parse_seconds(t, "--dt 0.05"), default=0.05
+        "dt",
+        "SECONDS",
+        "length of a step",
+        lambda t: parse_seconds(t, "--dt 0.05"),
+        default=DEFAULT_STEP,
     ),
     Option(
         "max-time",

@@ -31,6 +31,7 @@ from osc2tx_runtime.world.surroundings.stop_lines_ahead import StopLine, StopLin
 from osc2tx_runtime.world.surroundings.sun_and_moon import Sky
 from osc2tx_runtime.world.surroundings.traffic_light_states import Signals
 from osc2tx_shared.classes import replace
+from osc2tx_shared.steps import DEFAULT_STEP
 
 from .actor_dimensions import Limits
 from .commands import Command, Standstill
@@ -63,7 +64,9 @@ class EmbeddedWorld:
         signals: The traffic lights.
     """
 
-    def __init__(self, road_map: RoadMap, dt: float = 0.05, plant: Plant | None = None) -> None:
+    def __init__(
+        self, road_map: RoadMap, dt: float = DEFAULT_STEP, plant: Plant | None = None
+    ) -> None:
         self.map = road_map
         self.dt = dt
         self.signals = Signals(road_map)

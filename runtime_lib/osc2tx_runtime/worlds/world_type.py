@@ -12,6 +12,7 @@ from osc2tx_runtime.errors import InputError, SettingsError
 from osc2tx_runtime.opendrive import MapError, RoadMap, read_map
 from osc2tx_runtime.world.protocol import ActorSpec, ControlMode, World
 from osc2tx_shared.classes import dataclass
+from osc2tx_shared.steps import DEFAULT_STEP
 
 SECONDS = {"": 1.0, "s": 1.0, "sec": 1.0, "ms": 0.001, "min": 60.0}
 NUMBER_AND_UNIT = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*([A-Za-z]*)", re.ASCII)
@@ -112,7 +113,7 @@ class WorldRequest:
 
     map_file: str | None
     find_map: Callable[[], Path]
-    dt: float = 0.05
+    dt: float = DEFAULT_STEP
     seed: int = 0
     control: Mapping[str, ControlMode] = field(default_factory=dict)
     options: Mapping[str, Any] = field(default_factory=dict)

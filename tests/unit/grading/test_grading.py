@@ -41,6 +41,24 @@ scenario top:
                 speed(15mps)
             slower: other.change_speed(target: 5mps, rate_profile: constant, rate_peak: 5mpss)
 """
+UNREACHABLE_AT_A_CORNER = """\
+import osc.standard.all
+
+namespace null use std, stdtypes
+
+scenario top:
+    road: map with:
+        keep(it.map_file == "highway.xodr")
+    v: speed with:
+        keep(it in [12mps..36mps])
+    ego: vehicle
+
+    do ego.drive(duration: 2s) with:
+        lane(2, at: start)
+        position(100m, at: start)
+        speed(10mps, at: start)
+        speed(v, at: end)
+"""
 GOLDEN = Path(__file__).parents[2] / "golden" / "xosc"
 
 Change = Callable[[str], str]
@@ -92,6 +110,17 @@ def test_what_is_right_stays_exact_at_all_corners(values: str, tmp_path: Path) -
     assert found.report.measured is not None
     assert found.report.measured.runs == 3
     assert set(found.report.measured.values().values()) == {0.0}
+    assert codes(compilation) == []
+
+
+def test_a_corner_that_fails_is_stated(tmp_path: Path) -> None:
+    """From 10 m/s no tyres reach 36 m/s in 2 s; the other runs succeed."""
+    found, compilation = grade(tmp_path, text=UNREACHABLE_AT_A_CORNER)
+    assert found.report.measured is not None and found.report_json is not None
+    assert found.report.measured.runs == 4
+    (reason,) = found.report.measured.omitted
+    assert reason.startswith("the run in the world fails: ")
+    assert json.loads(found.report_json)["measured"]["omitted"] == [reason]
     assert codes(compilation) == []
 
 

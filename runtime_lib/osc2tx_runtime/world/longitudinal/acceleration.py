@@ -30,6 +30,11 @@ class ConstantAcceleration:
         speed = self._start + self._acceleration * (self._steps + steps) * dt
         return 0.0 if self._start >= 0.0 > speed or self._start < 0.0 < speed else speed
 
+    @property
+    def is_even(self) -> bool:
+        """Whether the speed stays as it is."""
+        return self._acceleration == 0.0
+
     def progress(self) -> Progress:
         """Never done: there is no goal."""
         return PENDING

@@ -16,7 +16,6 @@ from osc2tx_runtime.world.commands import (
     Turn,
 )
 from osc2tx_runtime.world.geometry.lane_return import turn_from
-from osc2tx_runtime.world.geometry.profiles import Linear
 from osc2tx_runtime.world.lateral.attitude_control import Turning
 from osc2tx_runtime.world.lateral.curve_following import Replay, TimedReplay, course_of
 from osc2tx_runtime.world.lateral.execution import HoldOffset, Impossible, Shift, lateral_of
@@ -110,10 +109,7 @@ class CommandedActor(MovingActor):
     def go_on_with(self, speed: float, acceleration: float) -> None:
         """Continues from an assigned speed (m/s), at an acceleration (m/s^2), up to a command."""
         self.upset()
-        if acceleration:
-            self._speed = ConstantAcceleration(acceleration, speed)
-        else:
-            self._speed = ProfileRun(Linear(speed, speed, 0.0))
+        self._speed = ConstantAcceleration(acceleration, speed)
 
     def pursue_side(self, command: Command | None, road_map: RoadMap) -> None:
         """Executes a lateral command; None keeps the lane, or returns to one."""

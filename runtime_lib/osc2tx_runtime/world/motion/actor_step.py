@@ -13,6 +13,7 @@ from osc2tx_runtime.world.geometry.lane_neighbours import lane_under
 from osc2tx_runtime.world.geometry.seam_smoothing import crossed
 from osc2tx_runtime.world.grip.friction import curvature_ahead
 from osc2tx_runtime.world.lateral.execution import SIDEWAYS, HoldOffset
+from osc2tx_runtime.world.longitudinal.acceleration import ConstantAcceleration
 from osc2tx_runtime.world.longitudinal.execution import ProfileRun, longitudinal_of
 from osc2tx_runtime.world.longitudinal.position_control import PlacedRun
 from osc2tx_runtime.world.state import ActorState
@@ -117,6 +118,7 @@ class MovingActor(MovingBody):
         """Whether an actor at standstill remains there until a new command."""
         run = self._speed
         held = run is None or (isinstance(run, ProfileRun) and run.progress().done)
+        held = held or (isinstance(run, ConstantAcceleration) and run.is_even)
         return held and self.is_steady() and isinstance(self._side, HoldOffset)
 
     def _goes_on(self, state: ActorState) -> bool:

@@ -19,6 +19,7 @@ from osc2tx.xosc import elements as xml
 from osc2tx.xosc.expressions import Symbol
 from osc2tx.xosc.literals import DynamicsDimension, DynamicsShape
 from osc2tx_shared.classes import dataclass, replace
+from osc2tx_shared.steps import DEFAULT_STEP
 
 PROFILE_ACTION = "SpeedProfileAction"
 
@@ -28,6 +29,9 @@ POINTS = 12
 """Points of a smooth course; the way it covers is within 2 cm for changes of 30 m/s."""
 
 FEWEST_POINTS, MOST_POINTS = 4, 48
+
+WHOLE = 1e-9
+"""By which a number of steps may be off a whole one."""
 
 APART = 0.03
 """Metres by which the points of a course may lead elsewhere: well within an exact document."""
@@ -202,12 +206,22 @@ def through_points(course: Course, count: int = POINTS) -> xml.PrivateAction:
 def points_for(course: Computed) -> int:
     """Return how many points take an actor along a course, at each time nearly where it is there.
 
-    A course of open parameters has twice as many as others, for its bends are not known.
+    The time between them is that of whole steps if up to twice as many points suffice for it: then
+    nothing that begins at a point begins a part of a step late. A course of open parameters has
+    twice as many as others, for its bends are not known.
     """
     if isinstance(course.value(0.5 * course.duration), Symbol):
         return 2 * POINTS
     counts = range(FEWEST_POINTS, MOST_POINTS)
-    return next((count for count in counts if _apart(course, count) <= APART), MOST_POINTS)
+    fewest = next((count for count in counts if _apart(course, count) <= APART), MOST_POINTS)
+    in_steps = (n for n in range(fewest, 2 * fewest + 1) if _lasts_steps(course.duration / n))
+    return next(in_steps, fewest)
+
+
+def _lasts_steps(seconds: float) -> bool:
+    """Whether a time is that of whole steps."""
+    steps = seconds / DEFAULT_STEP
+    return abs(steps - round(steps)) < WHOLE
 
 
 def _apart(course: Computed, count: int) -> float:

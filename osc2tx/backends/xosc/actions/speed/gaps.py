@@ -18,7 +18,6 @@ from osc2tx.backends.xosc.actions.lateral.lanes import lateral
 from osc2tx.backends.xosc.actions.leaf import Change, Leaf, Performance
 from osc2tx.backends.xosc.actions.registry import action, apply_modifiers, to_goal
 from osc2tx.backends.xosc.actions.speed.courses import longitudinal, speed_action, speed_of
-from osc2tx.backends.xosc.actions.speed.speed_changes import STEP
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.facts.actors import TOP_SPEED
 from osc2tx.backends.xosc.state import LATERAL
@@ -27,6 +26,7 @@ from osc2tx.losses.entries import GENERIC, Inexpressible, Remedy
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.literals import LateralDisplacement, LongitudinalDisplacement
 from osc2tx_shared.classes import dataclass, replace
+from osc2tx_shared.steps import DEFAULT_STEP
 
 SURE = 1e-6
 """Metres by which a gap may be another one and still counts as there."""
@@ -199,7 +199,7 @@ def _overshoot(leaf: Leaf, missing: float) -> float:
     It has looked one step before, and is at most as fast as after half of what is missing (m).
     """
     rate = max(leaf.limits.acceleration, leaf.limits.deceleration)
-    return STEP * math.sqrt(rate * missing)
+    return DEFAULT_STEP * math.sqrt(rate * missing)
 
 
 def _measured(leaf: Leaf, gap: Gap) -> tuple[float, bool]:

@@ -34,9 +34,7 @@ from osc2tx.losses.entries import GENERIC, Inexpressible, Remedy
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.literals import DynamicsShape
 from osc2tx_shared.classes import replace
-
-STEP = 0.05
-"""Seconds of a step of the run, unless it says otherwise."""
+from osc2tx_shared.steps import DEFAULT_STEP
 
 RATE = "SpeedActionDynamics/rate"
 
@@ -69,7 +67,7 @@ def change_speed(leaf: Leaf, target: float, pace: Pace) -> Change:
         planned = partial(course_of_speed, start, target, limits=leaf.limits)
         if pace.peak is not None and pace.duration is not None:
             own = planned(pace._replace(duration=None)).duration
-            if abs(own - pace.duration) > STEP:
+            if abs(own - pace.duration) > DEFAULT_STEP:
                 raise Inexpressible(
                     f"with rate_peak {pace.peak:g} m/s^2 it takes {own:.2f} s, not"
                     f" {pace.duration:g} s: every run fails"
