@@ -59,6 +59,7 @@ def test_memory_does_not_grow_with_the_length(tmp_path: Path) -> None:
         "verify": lambda steps: peak(lambda: verified(tmp_path / f"{steps}.jsonl")),
         "report": lambda steps: peak(lambda: Trace(lines(steps)).run.as_json()),
     }.items():
+        cost(short)  # what is made once does not count
         assert cost(long) < 1.3 * cost(short) + 1e5, what
     assert verified(tmp_path / f"{long}.jsonl") == long
 

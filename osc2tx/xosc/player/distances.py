@@ -128,6 +128,8 @@ class Ruler:
         """Return the distance of an entity to a place."""
         pose = place if isinstance(place, Pose) else Pose(*self.map.pose(place)[:2], 0.0)
         mark = Body("place", "MiscObject", 0.0, 0.0, 0.0, {}, pose)
+        if isinstance(place, LanePosition):  # as it is said, however far aside of its road
+            mark.located = pose, mark.place, mark.along, place
         return self.relative(a, mark, node)
 
     def clear(self, a: Body, others: list[Body], node: Element) -> bool:

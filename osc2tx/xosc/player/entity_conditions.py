@@ -16,7 +16,7 @@ from osc2tx.xosc.player.courses import RULES, number
 from osc2tx.xosc.player.distances import Ruler, asked, between_boxes
 from osc2tx.xosc.player.errors import Unplayable
 from osc2tx.xosc.player.global_state import GlobalState
-from osc2tx.xosc.player.places import place_of
+from osc2tx.xosc.player.places import target_of
 
 Test: TypeAlias = Callable[[], bool]
 """Whether a condition is met at the present step."""
@@ -129,8 +129,7 @@ def _test_of_place(body: Body, node: Element, world: World) -> Test:
     position, ruler = node.one(xml.Position).inner, world.ruler
 
     def distance() -> float:
-        place, _ = place_of(position, world.bodies, ruler.map)
-        return ruler.to_place(body, place, node)
+        return ruler.to_place(body, target_of(position, world.bodies, ruler.map), node)
 
     if node.tag != "ReachPositionCondition":
         return compared(node, distance)
@@ -155,7 +154,7 @@ def _test_of_time_to_place(body: Body, node: Element, world: World) -> Test:
     position = node.one(xml.TimeToCollisionConditionTarget).one(xml.Position).inner
 
     def test() -> bool:
-        place, _ = place_of(position, world.bodies, ruler.map)
+        place = target_of(position, world.bodies, ruler.map)
         return body.v > 0.0 and holds(ruler.to_place(body, place, node) / body.v, value)
 
     return test

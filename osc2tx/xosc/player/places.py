@@ -11,7 +11,7 @@ from osc2tx.xosc.player.bodies import Body, Pose
 from osc2tx.xosc.player.courses import number
 from osc2tx.xosc.player.errors import Unplayable
 from osc2tx.xosc.player.shapes import Way, lengths_of, on_way, way_of
-from osc2tx_runtime.opendrive import LanePosition, RoadMap
+from osc2tx_runtime.opendrive import Lane, LanePosition, RoadMap
 
 Place = tuple[LanePosition | Pose, float | None]  # with the heading (rad), if it states one
 
@@ -223,9 +223,27 @@ def beside(road_map: RoadMap, from_: LanePosition, along: int, count: int) -> La
 
 def centre(road_map: RoadMap, place: LanePosition) -> float:
     """Return the t of a place."""
-    section = road_map.roads[place.road].section_at(place.s)
-    lane = section.lanes[place.lane]
+    lane = _lane(road_map, place)
     return lane.centre.value(place.s) + place.offset * lane.direction
+
+
+def target_of(node: Element, bodies: Mapping[str, Body], road_map: RoadMap) -> LanePosition | Pose:
+    """Return the place to which a distance is measured.
+
+    One in coordinates of a road counts on this road, however far aside of its lanes it is.
+    """
+    if node.tag != "RoadPosition":
+        return place_of(node, bodies, road_map)[0]
+    road, s, t = node.said("roadId"), number(node, "s"), number(node, "t")
+    lanes = road_map.roads[road].section_at(s).lanes
+    places = [LanePosition(road, lane, s, 0.0) for lane in sorted(lanes) if lane]
+    nearest = min(places, key=lambda each: abs(t - centre(road_map, each)))
+    aside = (t - centre(road_map, nearest)) * _lane(road_map, nearest).direction
+    return nearest._replace(offset=aside)
+
+
+def _lane(road_map: RoadMap, place: LanePosition) -> Lane:
+    return road_map.roads[place.road].section_at(place.s).lanes[place.lane]
 
 
 def offset_of(road_map: RoadMap, lane: LanePosition, pose: Pose) -> float:
