@@ -128,7 +128,7 @@ class Ruler:
         """Return the distance of an entity to a place."""
         pose = place if isinstance(place, Pose) else Pose(*self.map.pose(place)[:2], 0.0)
         mark = Body("place", "MiscObject", 0.0, 0.0, 0.0, {}, pose)
-        if isinstance(place, LanePosition):  # as it is said, however far aside of its road
+        if isinstance(place, LanePosition):  # however far aside of its road it is
             mark.located = pose, mark.place, mark.along, place
         return self.relative(a, mark, node)
 
