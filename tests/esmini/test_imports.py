@@ -108,7 +108,7 @@ def names() -> list[str]:
 @pytest.mark.parametrize("document", documents(), ids=names())
 def test_places_are_those_of_esmini(document: Path, tmp_path: Path) -> None:
     results, _ = import_all([document], tmp_path / "out", Folders())
-    (found,) = (each for each in results if each.source == document)
+    (found,) = (each for each in results if each.imported.source == document)
     assert not found.faults
     map_file = found.imported.document.map_file
     assert map_file is not None
