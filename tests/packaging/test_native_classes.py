@@ -1,5 +1,6 @@
 """Value classes that are written out for mypyc are what the decorator makes of them."""
 
+import ast
 import importlib.util
 import pickle
 import sys
@@ -145,5 +146,23 @@ def test_no_compiled_module_has_a_cached_property() -> None:
         path
         for path in compiled_modules(ROOT)
         if "@cached_property" in (ROOT / path).read_text("utf-8")
+    ]
+    assert not found
+
+
+def test_no_compiled_module_looks_into_a_tuple_with_unpacked_parts() -> None:
+    """mypyc ends with an internal error at `x in (*some, other)`."""
+    found = [
+        f"{path}:{node.lineno}"
+        for path in compiled_modules(ROOT)
+        for node in ast.walk(ast.parse((ROOT / path).read_text("utf-8")))
+        if isinstance(node, ast.Compare)
+        and any(isinstance(operator, ast.In | ast.NotIn) for operator in node.ops)
+        and any(
+            isinstance(part, ast.Starred)
+            for place in node.comparators
+            if isinstance(place, ast.Tuple | ast.List)
+            for part in place.elts
+        )
     ]
     assert not found
