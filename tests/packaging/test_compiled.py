@@ -86,7 +86,7 @@ def test_traces_are_the_same(compiled: Path) -> None:
 
 def test_the_compiler_is_compiled(compiled: Path) -> None:
     assert (compiled / "osc2tx" / "semantics" / f"symbols{SUFFIX}").is_file()
-    assert not (compiled / "osc2tx" / "syntax" / f"parser{SUFFIX}").is_file()
+    assert not (compiled / "osc2tx" / "syntax" / f"packed_ast{SUFFIX}").is_file()
 
 
 def test_outputs_are_the_same(compiled: Path) -> None:
