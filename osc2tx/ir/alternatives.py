@@ -29,7 +29,7 @@ def is_partly_drawn(node: OneOf, policy: str) -> bool:
 
 def _rivalries(node: OneOf) -> list[bool]:
     """Return for each two members whether both control the same of an actor at first."""
-    claims = [{*_claims_at_once(member)} for member in node.members]
+    claims = map(_claims_at_once, node.members)
     return [bool(one & other) for one, other in combinations(claims, 2)]
 
 

@@ -7,7 +7,7 @@ an object in time is written in place of the read.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 from osc2tx import ir
 from osc2tx_shared.classes import replace
@@ -39,20 +39,35 @@ def with_members_written(circle: Sequence[ir.Declaration]) -> tuple[ir.Declarati
     return tuple(_written(each, stated) for each in circle)
 
 
+def with_reads_written(
+    value: ir.Expression, own: Path, value_at: Callable[[Path], ir.Expression | None]
+) -> ir.Expression:
+    """Return a value with values in place of the reads of members, at any depth.
+
+    Args:
+        value: The value.
+        own: The path of the member whose value it is. Members that are defined by themselves are
+            still read: `in_order_of_use` reports that.
+        value_at: Returns the value of a member; `None` if it is read.
+    """
+    pending = [own]
+
+    def replacement(part: ir.Expression) -> ir.Expression | None:
+        path = path_of(part)
+        found = value_at(path) if path and path not in pending else None
+        if found is None:
+            return None
+        pending.append(path)
+        written = ir.rewrite(found, replacement)
+        pending.pop()
+        return written
+
+    return ir.rewrite(value, replacement)
+
+
 def _written(declaration: ir.Declaration, stated: Mapping[Path, ir.Expression]) -> ir.Declaration:
     def written(value: ir.Expression, own: Path) -> ir.Expression:
-        pending = [own]
-
-        def replacement(part: ir.Expression) -> ir.Expression | None:
-            path = path_of(part)
-            if path not in stated or path in pending:
-                return None
-            pending.append(path)
-            found = ir.rewrite(stated[path], replacement)
-            pending.pop()
-            return found
-
-        return ir.rewrite(value, replacement)
+        return with_reads_written(value, own, stated.get)
 
     name = declaration.name
     match declaration:

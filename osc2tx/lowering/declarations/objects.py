@@ -25,7 +25,7 @@ from osc2tx.lowering.declarations.map_fields import (
     is_search_criterion,
     reads_map,
 )
-from osc2tx.lowering.declarations.members_read import path_of
+from osc2tx.lowering.declarations.members_read import Path, with_reads_written
 from osc2tx.lowering.declarations.user_fields import (
     TypeSymbol,
     class_default,
@@ -288,30 +288,15 @@ def _without_object(
     """Return the values; a reference to a field of the same object is replaced by its value."""
     by_path = {value.path: value.value for value in found.values()}
 
-    def replacement(part: ir.Expression) -> ir.Expression | None:
-        path = _path_below(name, part)
-        value = by_path.get(path) or _default_at(ctx, types_, path)
-        if value is None or path in pending:
-            return None  # of the library, or defined by itself: `in_order_of_use` reports that
-        pending.append(path)
-        inlined = ir.rewrite(value, replacement)
-        pending.pop()
-        return inlined
+    def value_at(path: Path) -> ir.Expression | None:
+        if path[0] != name:
+            return None
+        return by_path.get(path[1:]) or _default_at(ctx, types_, path[1:])
 
-    pending: list[tuple[str, ...]] = []
-    values = []
-    for each in found.values():
-        pending.append(each.path)
-        values.append(
-            ir.FieldValue(
-                path=each.path,
-                value=_decided(ir.rewrite(each.value, replacement)),
-                span=each.span,
-                comments=each.comments,
-            )
-        )
-        pending.pop()
-    return tuple(values)
+    return tuple(
+        replace(each, value=_decided(with_reads_written(each.value, (name, *each.path), value_at)))
+        for each in found.values()
+    )
 
 
 def _decided(value: ir.Expression) -> ir.Expression:
@@ -345,12 +330,6 @@ def _default_at(
     type_ = member.type
     below = (type_.symbol,) if isinstance(type_, types.ActorType | types.StructType) else ()
     return _default_at(ctx, below, path[1:])
-
-
-def _path_below(object_: str, part: ir.Expression) -> tuple[str, ...]:
-    """Return the path of a member of an object, `("position", "x")`; empty for anything else."""
-    path = path_of(part)
-    return path[1:] if path[:1] == (object_,) else ()
 
 
 def _contains_itself(key: Key, member: sym.FieldSymbol) -> bool:

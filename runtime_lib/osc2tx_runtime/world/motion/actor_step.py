@@ -117,8 +117,11 @@ class MovingActor(MovingBody):
     def _stays(self) -> bool:
         """Whether an actor at standstill remains there until a new command."""
         run = self._speed
-        held = run is None or (isinstance(run, ProfileRun) and run.progress().done)
-        held = held or (isinstance(run, ConstantAcceleration) and run.is_even)
+        held = (
+            run is None
+            or (isinstance(run, ConstantAcceleration) and run.is_even)
+            or (isinstance(run, ProfileRun) and run.progress().done)
+        )
         return held and self.is_steady() and isinstance(self._side, HoldOffset)
 
     def _goes_on(self, state: ActorState) -> bool:
