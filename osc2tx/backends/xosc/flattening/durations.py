@@ -18,7 +18,12 @@ from osc2tx.backends.xosc.conditions.flow import NEVER, Flow
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.flattening.builder import VERDICT, StoryboardBuilder, construct_of
 from osc2tx.backends.xosc.flattening.failures import Role, fail_scenario
-from osc2tx.backends.xosc.flattening.lengths import least_length, length_at_least, length_of
+from osc2tx.backends.xosc.flattening.lengths import (
+    least_length,
+    length_at_least,
+    length_of,
+    may_end_after,
+)
 from osc2tx.backends.xosc.flattening.until_ends import end_at_until, end_within
 from osc2tx.losses.entries import Inexpressible, Remedy
 from osc2tx_shared.classes import replace
@@ -55,14 +60,18 @@ def end_within_duration(
         return start.later(low) | until  # it goes on for as long as one likes
     if builder.ctx.module.dialect == "carla":
         return content | start.later(high) | until
-    if isinstance(node, ir.OneOf):
-        reason = "the member that ends within the duration wins, which only the run shows"
-        raise Inexpressible(reason, node.duration.span)
     # A member without end fills what the others leave of a duration.
     fills = since is not None or (
         isinstance(node, ir.Parallel)
         and any(ir.is_open(member, is_planned=True) for member in node.members)
     )
+    if low == high and (fills or isinstance(node, ir.OneOf)):
+        content_of_node = replace(node, duration=None, until=())
+        if may_end_after(builder.ctx, content_of_node, low):
+            return start.later(low) | until
+    if isinstance(node, ir.OneOf):
+        reason = "the member that ends within the duration wins, which only the run shows"
+        raise Inexpressible(reason, node.duration.span)
     content = content if since is None else since
     if length is not None and length <= high and (fills or low <= length):
         return (start.later(low) if length < low else content) | until

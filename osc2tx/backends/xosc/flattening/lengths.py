@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from math import inf
+
 from osc2tx import ir
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.values.constants import Bounds
@@ -64,6 +66,28 @@ def length_at_least(ctx: Context, node: ir.Behavior) -> float:
         case ir.OneOf(members=members, until=()):
             return min(length_at_least(ctx, member) for member in members)
     return 0.0
+
+
+def may_end_after(ctx: Context, node: ir.Behavior, time: float) -> bool:
+    """Whether its surroundings surely may end a member at a time (s) after its start.
+
+    An alternative without an end lets them end the whole race.
+    """
+    if isinstance(node, ir.Composition) and (node.until or node.duration is not None):
+        return False
+    match node:
+        case ir.Serial(members=(*before, last)):
+            lengths = [length_of(ctx, member) for member in before]
+            passed = inf if None in lengths else sum(filter(None, lengths))
+            return may_end_after(ctx, last, time - passed)
+        case ir.Parallel(members=members) if ir.starts_together(node):
+            lasting = [member for member in members if not ir.is_instant(member)]
+            return bool(lasting) and all(may_end_after(ctx, each, time) for each in lasting)
+        case ir.OneOf(members=members) if not ir.is_drawn(node, ctx.module.one_of):
+            return any(may_end_after(ctx, member, time) for member in members)
+        case ir.Invoke():
+            return ir.is_open(node) and time >= 0.0
+    return False
 
 
 def begin_of(ctx: Context, node: ir.Behavior) -> float | None:

@@ -84,7 +84,6 @@ class Parallel(Composition, ParallelComposite):
         self.end_to_end = end_to_end
         self._bounding: frozenset[Behaviour] = frozenset()
         self._left = 0
-        self._stretched = False
         self._late = (0, 0.0)
         self._services: list[Member] = []
         self._verdict: Status | None = None
@@ -108,7 +107,6 @@ class Parallel(Composition, ParallelComposite):
         self._left = len(self._bounding)
         self._late = (-1, 0.0)
         self._verdict = None
-        self._stretched = False
         if self._schedule is not None:
             lasting = set(self._lasting())
             self._active = [member for member in self._members if member[0] not in lasting]
@@ -244,18 +242,19 @@ class Parallel(Composition, ParallelComposite):
     def _stretches(self) -> bool:
         """Return whether open-ended members fill the rest of the least duration."""
         limits = self._limits
-        self._stretched = (
+        return (
             limits is not None
             and not self.context.first_come
             and limits.left > 0
             and any(is_open(child) and not is_service(child) for child, _ in self._active)
         )
-        return self._stretched
 
     def _content_goes_on(self) -> bool:
-        if not self._content_open:
-            return self._stretched
-        return all(goes_on(child) for child in self._lasting() if child.status is RUNNING)
+        lasting = self._lasting()
+        return any(child.status is RUNNING for child in lasting) and all(
+            child.status is SUCCESS or (child.status is RUNNING and goes_on(child))
+            for child in lasting
+        )
 
     def _note_end(self, member: Behaviour) -> None:
         """Store the lateness of the last end."""
