@@ -41,7 +41,7 @@ def loaded(folder: Path) -> set[str]:
     ("text", "most"),
     [
         pytest.param("scenario top:\n    do nothing()\n", 170, id="with an error"),
-        pytest.param(FULL, 661, id="up to the first step in the world"),
+        pytest.param(FULL, 663, id="up to the first step in the world"),
     ],
 )
 def test_modules_of_a_first_check(text: str, most: int, tmp_path: Path) -> None:

@@ -9,16 +9,8 @@ from osc2tx_runtime.errors import ScenarioError, SettingsError
 from osc2tx_runtime.language.actions.base_action import BaseAction
 from osc2tx_runtime.language.context import ExecutionContext, PostedEvent
 from osc2tx_runtime.language.outline import outline
-from osc2tx_runtime.language.tree.base import (
-    FAILURE,
-    INVALID,
-    RUNNING,
-    SUCCESS,
-    Behaviour,
-    Status,
-    pulse_of,
-)
-from osc2tx_runtime.language.tree.compositions import Serial, is_instant
+from osc2tx_runtime.language.tree.base import FAILURE, INVALID, RUNNING, SUCCESS, Behaviour, Status
+from osc2tx_runtime.language.tree.compositions import Serial
 from osc2tx_runtime.language.tree.conflicts import check_claims, check_effects
 from osc2tx_runtime.language.tree.coverage import Recording
 from osc2tx_runtime.language.tree.failure_reasons import (
@@ -27,6 +19,7 @@ from osc2tx_runtime.language.tree.failure_reasons import (
     timeout_place,
     timeout_reason,
 )
+from osc2tx_runtime.language.tree.members import is_instant, pulse_of
 from osc2tx_runtime.running.criteria import Criteria
 
 if TYPE_CHECKING:

@@ -9,9 +9,10 @@ from osc2tx_runtime.errors import CapabilityError
 from osc2tx_runtime.language.actions.action import Action
 from osc2tx_runtime.language.actions.base_action import BaseAction
 from osc2tx_runtime.language.context import ExecutionContext
-from osc2tx_runtime.language.tree.compositions import Serial, length_of
+from osc2tx_runtime.language.tree.compositions import Serial
 from osc2tx_runtime.language.tree.directives import Until
 from osc2tx_runtime.language.tree.ending import Ending
+from osc2tx_runtime.language.tree.members import length_of
 from osc2tx_runtime.language.tree.parallel import Parallel
 from osc2tx_runtime.world.protocol import EXTERNAL
 

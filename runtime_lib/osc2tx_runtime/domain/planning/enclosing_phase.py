@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from osc2tx_runtime.domain.modifiers import Modifier
 from osc2tx_runtime.language.actions.base_action import BaseAction
 from osc2tx_runtime.language.tree import Parallel, Serial, Until
-from osc2tx_runtime.language.tree.compositions import is_instant, is_service
+from osc2tx_runtime.language.tree.members import is_instant, is_service
 from osc2tx_shared.rules.endings import (
     Enclosing,
     Ending,

@@ -16,7 +16,9 @@ from typing import NamedTuple, TypeAlias
 from osc2tx_runtime.clock import is_longer
 from osc2tx_runtime.language.context import ExecutionContext
 from osc2tx_runtime.language.tree.base import Behaviour, Node
-from osc2tx_runtime.language.tree.compositions import Composition, OneOf, Serial, is_service
+from osc2tx_runtime.language.tree.compositions import Composition, Serial
+from osc2tx_runtime.language.tree.members import is_service
+from osc2tx_runtime.language.tree.one_of import OneOf
 from osc2tx_runtime.language.tree.parallel import Parallel
 
 MOST_CHOICES = 4096

@@ -14,7 +14,7 @@ from osc2tx_runtime.language.declared import BaseActor
 from osc2tx_runtime.language.settings import near
 from osc2tx_runtime.language.source_map import SourceMap
 from osc2tx_runtime.language.tree.base import Behaviour, Leaf, Node
-from osc2tx_runtime.language.tree.compositions import Composition, OneOf, Serial
+from osc2tx_runtime.language.tree.compositions import Composition, Serial
 from osc2tx_runtime.language.tree.conflicts import find_rivals
 from osc2tx_runtime.language.tree.coverage import Recording
 from osc2tx_runtime.language.tree.directives import Until
@@ -26,6 +26,7 @@ from osc2tx_runtime.language.tree.invocation import (
     started_at_once,
     unique_name,
 )
+from osc2tx_runtime.language.tree.one_of import OneOf
 from osc2tx_runtime.language.tree.override import Mode, guard
 from osc2tx_runtime.language.tree.parallel import Parallel
 from osc2tx_runtime.language.tree.variables import Sampling, SamplingStart

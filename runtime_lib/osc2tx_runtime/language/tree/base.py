@@ -11,13 +11,13 @@ its own or at its open end), FAILURE, INVALID (interrupted).
 from __future__ import annotations
 
 import random
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any, Protocol
 
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
-from osc2tx_runtime.errors import OwnCode, ScenarioError, is_own, message_of, name_of
+from osc2tx_runtime.errors import ScenarioError, is_own, message_of, name_of
 from osc2tx_runtime.language.context import ExecutionContext, PostedEvent
 
 __all__ = [
@@ -27,9 +27,7 @@ __all__ = [
     "Node",
     "Status",
     "checked",
-    "ended_late",
     "place_key",
-    "pulse_of",
     "split_label",
 ]
 
@@ -167,6 +165,11 @@ class Node(Behaviour):
         """Return its duration (s) so far, up to a time (s) before this step."""
         context = self.context
         return (context.step - self._first_step) * context.dt + self.started_late - late
+
+    @property
+    def takes_no_time(self) -> bool:
+        """Whether it is over at once; known before it is set up."""
+        return self.instant
 
     def situation(self) -> str:
         """Return a description of a node that is still running; empty by default."""
@@ -329,28 +332,10 @@ def checked(node: Behaviour, status: object) -> Status:
     raise ScenarioError(f"{node.name} returns {shown}, which is not a status of a node")
 
 
-def pulse_of(child: Behaviour) -> Callable[[], Status]:
-    """Return the call that ticks a member: `Node` or another py_trees behaviour."""
-    if isinstance(child, Node):
-        return child.pulse
-
-    def tick_foreign() -> Status:
-        with OwnCode(f"{child.name}: {name_of(type(child))} raised"):
-            child.tick_once()
-        return FAILURE if child.status is INVALID else checked(child, child.status)
-
-    return tick_foreign
-
-
 class Named(Protocol):
     """An object with a name, such as a node."""
 
     name: str
-
-
-def ended_late(child: Behaviour) -> float:
-    """Return the lateness (s) of the end of a member; other py_trees behaviours end at a step."""
-    return child.ended_late if isinstance(child, Node) else 0.0
 
 
 def place_key(node: Named) -> tuple[int, str]:

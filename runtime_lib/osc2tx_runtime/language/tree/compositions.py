@@ -1,36 +1,31 @@
-"""The base of compositions, `serial` and `one_of`."""
+"""The base of compositions, and `serial`."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from py_trees.common import ParallelPolicy
-from py_trees.composites import Parallel as ParallelComposite
 from py_trees.composites import Sequence as SequenceComposite
 
 from osc2tx_runtime.errors import UnsupportedError
-from osc2tx_runtime.language.tree.base import (
-    FAILURE,
-    INVALID,
-    RUNNING,
-    SUCCESS,
-    Behaviour,
-    Node,
-    Status,
+from osc2tx_runtime.language.tree.base import RUNNING, SUCCESS, Behaviour, Node, Status
+from osc2tx_runtime.language.tree.duration_limits import Duration, DurationLimits
+from osc2tx_runtime.language.tree.members import (
+    Member,
     ended_late,
-    place_key,
+    ending_of,
+    goes_on,
+    is_instant,
+    is_open,
+    least_length,
+    length_of,
+    open_since,
     pulse_of,
 )
-from osc2tx_runtime.language.tree.duration_limits import Duration, DurationLimits
 from osc2tx_runtime.language.tree.parallel_schedule import Span
-from osc2tx_shared.rules.endings import Ending, ending_of_one_of, ending_of_serial
+from osc2tx_shared.rules.endings import ending_of_serial
 
 if TYPE_CHECKING:
     from osc2tx_runtime.language.context import ExecutionContext
-
-Member = tuple[Behaviour, Callable[[], Status]]
-Rivals = Mapping[Behaviour, Collection[Behaviour]]
 
 
 class Composition(Node):
@@ -54,7 +49,7 @@ class Composition(Node):
 
     @property
     def takes_no_time(self) -> bool:
-        """Whether it is over at once, as its members are; known before it is set up."""
+        """Whether it is over at once, as its members are."""
         return self._limits is None and all(is_instant(child) for child in self.children)
 
     def pulse(self) -> Status:
@@ -239,192 +234,3 @@ class Serial(Composition, SequenceComposite):
 
     def _content_lateness(self) -> float:
         return ended_late(self.children[-1]) if self.children else super()._content_lateness()
-
-
-class OneOf(Composition, ParallelComposite):
-    """Alternatives: a race by default, or one member chosen before the start.
-
-    In the race all members start, the first to succeed ends it (the order of the source breaks
-    ties), a failing member leaves it, and it fails when all have failed. Of members that control
-    the same actor from the start only one takes part, drawn from the seed.
-
-    Args:
-        name: Label, or a description.
-        *members: The alternatives.
-        duration: Total duration: seconds, or (least, most) seconds.
-
-    Attributes:
-        find_rivals: Returns the members that exclude each other in a race, after their setup.
-    """
-
-    def __init__(self, name: str, *members: Behaviour, duration: Duration | None = None) -> None:
-        super().__init__(name, policy=ParallelPolicy.SuccessOnOne(), children=members)
-        self._limit(duration)
-        self._asked = False
-        self._chosen: Behaviour | None = None
-        self.find_rivals: Callable[[OneOf], Rivals] = lambda _: {}
-
-    def choose(self, member: Behaviour) -> None:
-        """Let one of its members be the only alternative; before its setup."""
-        self._chosen = member
-
-    def setup(self, **kwargs: Any) -> None:
-        """If the scenario does not race, choose a member that fills the duration."""
-        super().setup(**kwargs)
-        if self._chosen is not None:
-            self._members = tuple(each for each in self._members if each[0] is self._chosen)
-            self._content_open = is_open(self._chosen)
-            self.open_ended = self._content_open and self._limits is None
-            return
-        is_race = self.context.one_of == "race"
-        rivals = self.find_rivals(self) if is_race else {}
-        if not self._members or (is_race and not rivals):
-            return
-        members = self._fitting() or self._members
-        if is_race:
-            self._members = self._without_rivals(members, rivals)
-        else:
-            index = 0
-            if self.context.one_of == "seeded":
-                index = self.generator("one_of").randrange(len(members))
-            self._members = (members[index],)
-        self._content_open = (
-            ending_of_one_of(ending_of(each) for each, _ in self._members) == "open"
-        )
-        self.open_ended = self._content_open and self._limits is None
-
-    def _without_rivals(self, members: Sequence[Member], rivals: Rivals) -> tuple[Member, ...]:
-        """Return the members of the race: in a random order, those without a rival in it.
-
-        The draw depends on the alternatives, not on the order of the source.
-        """
-        drawn = sorted(members, key=lambda member: sorted(n.name for n in member[0].iterate()))
-        kept = list[Member]()
-        self.generator("one_of").shuffle(drawn)
-        for member in drawn:
-            out = rivals.get(member[0], ())
-            if not any(other in out for other, _ in kept):
-                kept.append(member)
-        return tuple(member for member in members if member in kept)
-
-    def initialise(self) -> None:
-        """Start the race."""
-        super().initialise()
-        self._active, self.current_child = self._fitting(), None
-        if self.context.one_of != "race" and self._members:
-            self._note(self._members[0][0])
-
-    def _content_lateness(self) -> float:
-        winner = self.current_child
-        return super()._content_lateness() if winner is None else ended_late(winner)
-
-    def _fitting(self) -> list[Member]:
-        """Return the members that can take the required time."""
-        return [member for member, _ in self._fitting_lengths()]
-
-    def _fitting_lengths(self) -> list[tuple[Member, int | None]]:
-        """Return them with their lengths, each computed once, as members may nest deeply."""
-        frame = None
-        if not self._asked:  # recursion through a sibling that depends on this length
-            self._asked = True
-            frame = self.frame(self.context)
-            self._asked = False
-        lengths = [(m, None if is_open(m[0]) else length_of(m[0])) for m in self._members]
-        if frame is None:
-            return lengths
-        fitting = [(m, n) for m, n in lengths if n is None or frame.low <= n <= frame.high]
-        return fitting if fitting or self._limits is not None else lengths
-
-    def _content_goes_on(self) -> bool:
-        return any(goes_on(child) for child, _ in self._active)
-
-    def least_length(self) -> int | None:
-        """Return the least steps that one of its members needs."""
-        lengths = [least_length(child) for child, _ in self._members]
-        known = [length for length in lengths if length is not None]
-        return min(known, default=0) if len(known) == len(lengths) else None
-
-    def _lost(self) -> Status:
-        """Fail: no member is left in the race."""
-        failed = any(child.status is FAILURE for child, _ in self._members)
-        if self._limits is None or failed:
-            return FAILURE
-        return self.fail(f"none of its members takes {self._limits.text}")
-
-    def _counts(self, child: Behaviour) -> bool:
-        """Return whether the end of a member ends the whole: whether it fills the duration."""
-        limits = self._limits
-        return limits is None or self.context.first_come or not limits.is_early(ended_late(child))
-
-    def _note(self, chosen: Behaviour) -> None:
-        policy = self.context.one_of
-        self.context.trace.choice(self.name, policy, chosen.name, self.source)
-
-    def _content_length(self) -> int | None:
-        lengths = [length for (child, _), length in self._fitting_lengths() if not is_open(child)]
-        known = [length for length in lengths if length is not None]
-        return min(known, default=None) if len(known) == len(lengths) else None
-
-    def _is_open(self) -> bool:
-        return ending_of_one_of(map(ending_of, self.children)) == "open"
-
-    def _advance(self) -> Status:
-        winners = [
-            child
-            for child, status in self._pulse_active()
-            if status is SUCCESS and self._counts(child)
-        ]
-        if winners:
-            winner = min(winners, key=lambda child: (-ended_late(child), place_key(child)))
-            for child, _ in self._active:
-                child.stop(INVALID)
-            self._active = []
-            self.current_child = winner
-            if self.context.one_of == "race":
-                self._note(winner)
-            return SUCCESS
-        return RUNNING if self._active else self._lost()
-
-
-def is_open(child: Behaviour) -> bool:
-    """Return whether a member is open-ended; other py_trees behaviours are not."""
-    return isinstance(child, Node) and child.open_ended
-
-
-def ending_of(child: Behaviour) -> Ending:
-    """Return how a member ends; one that only accompanies the others has no time of its own."""
-    if is_instant(child) or is_service(child):
-        return "instant"
-    return "open" if is_open(child) else "bounded"
-
-
-def goes_on(child: Behaviour) -> bool:
-    """Return whether only the surroundings of a running member end it from here on."""
-    return isinstance(child, Node) and child.goes_on()
-
-
-def open_since(child: Behaviour) -> tuple[int, float]:
-    """Return since when only the surroundings of a running member end it: step, lateness (s)."""
-    return child.open_since() if isinstance(child, Node) else (0, 0.0)
-
-
-def least_length(child: Behaviour) -> int | None:
-    """Return the steps that an open-ended member needs; None if only the run shows them."""
-    return child.least_length() if isinstance(child, Node) else None
-
-
-def is_instant(child: Behaviour) -> bool:
-    """Return whether a member takes no time."""
-    if isinstance(child, Composition):
-        return child.takes_no_time
-    return isinstance(child, Node) and child.instant
-
-
-def is_service(child: Behaviour) -> bool:
-    """Return whether a member only accompanies the others."""
-    return isinstance(child, Node) and child.service
-
-
-def length_of(child: Behaviour) -> int | None:
-    """Return the number of steps of a member, if known; unknown for other py_trees behaviours."""
-    return child.length() if isinstance(child, Node) else None

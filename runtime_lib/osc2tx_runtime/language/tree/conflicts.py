@@ -14,8 +14,9 @@ from osc2tx_runtime.language.actions.action import Action
 from osc2tx_runtime.language.context import ExecutionContext
 from osc2tx_runtime.language.slots import Owner
 from osc2tx_runtime.language.tree.base import Behaviour, place_key
-from osc2tx_runtime.language.tree.compositions import OneOf, Serial
+from osc2tx_runtime.language.tree.compositions import Serial
 from osc2tx_runtime.language.tree.invocation import started_at_once
+from osc2tx_runtime.language.tree.one_of import OneOf
 
 
 def check_claims(context: ExecutionContext) -> None:

@@ -15,8 +15,6 @@ from osc2tx_runtime.language.tree.base import (
     Leaf,
     Node,
     Status,
-    ended_late,
-    pulse_of,
     split_label,
 )
 from osc2tx_runtime.language.tree.conditions import (
@@ -27,6 +25,7 @@ from osc2tx_runtime.language.tree.conditions import (
 )
 from osc2tx_runtime.language.tree.duration_limits import DurationLimits
 from osc2tx_runtime.language.tree.events import Event, Guard, Trigger, describe, rest_until, watch
+from osc2tx_runtime.language.tree.members import ended_late, pulse_of
 from osc2tx_runtime.language.tree.module_text import function_text
 
 

@@ -15,9 +15,8 @@ from osc2tx_runtime.language.tree.base import (
     Leaf,
     Node,
     Status,
-    ended_late,
-    pulse_of,
 )
+from osc2tx_runtime.language.tree.members import ended_late, pulse_of
 
 WHOLE = "do"
 """Label of the whole behavior, in modules with a reaction to its failure."""

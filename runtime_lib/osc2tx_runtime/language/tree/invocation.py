@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 from osc2tx_runtime.language.declared import BaseActor
 from osc2tx_runtime.language.tree.base import Behaviour, Node
-from osc2tx_runtime.language.tree.compositions import OneOf, Serial, is_instant, is_service
+from osc2tx_runtime.language.tree.compositions import Serial
 from osc2tx_runtime.language.tree.duration_limits import Duration
+from osc2tx_runtime.language.tree.members import is_instant, is_service
+from osc2tx_runtime.language.tree.one_of import OneOf
 from osc2tx_runtime.language.tree.parallel import Parallel
 
 if TYPE_CHECKING:

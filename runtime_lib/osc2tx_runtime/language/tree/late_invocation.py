@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING, Any
 
 from osc2tx_runtime.errors import UnsupportedError
 from osc2tx_runtime.language.tree.assembly import invoked_placements, state_at_start
-from osc2tx_runtime.language.tree.base import RUNNING, Behaviour, Node, Status, ended_late, pulse_of
+from osc2tx_runtime.language.tree.base import RUNNING, Behaviour, Node, Status
+from osc2tx_runtime.language.tree.members import ended_late, pulse_of
 
 if TYPE_CHECKING:
     from osc2tx_runtime.language.scenario_parts import ScenarioParts

@@ -8,7 +8,7 @@ from typing import Any
 from py_trees.composites import Sequence as SequenceComposite
 
 from osc2tx_runtime.errors import ScenarioError
-from osc2tx_runtime.language.tree.base import RUNNING, SUCCESS, Behaviour, Node, Status, pulse_of
+from osc2tx_runtime.language.tree.base import RUNNING, SUCCESS, Behaviour, Node, Status
 from osc2tx_runtime.language.tree.conditions import Watch
 from osc2tx_runtime.language.tree.events import (
     Event,
@@ -18,6 +18,7 @@ from osc2tx_runtime.language.tree.events import (
     describe,
     watch,
 )
+from osc2tx_runtime.language.tree.members import pulse_of
 
 NOTHING: Mapping[str, Any] = {}
 

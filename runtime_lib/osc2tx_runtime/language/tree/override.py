@@ -14,9 +14,8 @@ from osc2tx_runtime.language.tree.base import (
     Behaviour,
     Node,
     Status,
-    ended_late,
-    pulse_of,
 )
+from osc2tx_runtime.language.tree.members import ended_late, pulse_of
 
 Mode = Literal["on_start", "when_active"]
 

@@ -14,12 +14,13 @@ from osc2tx_runtime.language.tree.base import (
     SUCCESS,
     Behaviour,
     Status,
-    ended_late,
     place_key,
 )
-from osc2tx_runtime.language.tree.compositions import (
-    Composition,
+from osc2tx_runtime.language.tree.compositions import Composition
+from osc2tx_runtime.language.tree.duration_limits import Duration, bounds_of
+from osc2tx_runtime.language.tree.members import (
     Member,
+    ended_late,
     ending_of,
     goes_on,
     is_instant,
@@ -29,7 +30,6 @@ from osc2tx_runtime.language.tree.compositions import (
     length_of,
     open_since,
 )
-from osc2tx_runtime.language.tree.duration_limits import Duration, bounds_of
 from osc2tx_runtime.language.tree.parallel_execution import Course
 from osc2tx_runtime.language.tree.parallel_schedule import (
     Overlap,

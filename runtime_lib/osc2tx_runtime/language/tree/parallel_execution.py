@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from osc2tx_runtime.language.tree.base import FAILURE, RUNNING, SUCCESS, Status, place_key
-from osc2tx_runtime.language.tree.compositions import Member, goes_on, is_open
+from osc2tx_runtime.language.tree.members import Member, goes_on, is_open
 from osc2tx_runtime.language.tree.parallel_schedule import INF, Schedule
 
 if TYPE_CHECKING:
