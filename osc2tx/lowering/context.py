@@ -139,6 +139,7 @@ class LoweringContext:
             domains; the same in all scenarios that inherit them.
         state: The state of the lowering of the scenario.
         own_names: Names of the members of the scenario.
+        known_files: Names of the files of the scenario, and of those that they import.
         same_actors: The actors of the scenario that are equal to others.
         place: Scope of the names in an expression, in constraints.
         it: The meaning of `it` there.
@@ -156,6 +157,7 @@ class LoweringContext:
     constants: dict[Constraint, tuple[Setting, Domain | None]] = field(default_factory=dict)
     state: ScenarioState = field(default_factory=ScenarioState)
     own_names: frozenset[str] = frozenset()
+    known_files: frozenset[str] = frozenset()
     same_actors: Mapping[FieldSymbol, SameActor] = field(default_factory=dict)
     place: Place | None = None
     it: ir.Expression | None = None
@@ -178,10 +180,15 @@ class LoweringContext:
         return self.program.lower_with(self, node)
 
     def of_scenario(
-        self, own_names: frozenset[str], same: Mapping[FieldSymbol, SameActor]
+        self,
+        own_names: frozenset[str],
+        known_files: frozenset[str],
+        same: Mapping[FieldSymbol, SameActor],
     ) -> LoweringContext:
         """Return the context for another scenario of the same program, with such members."""
-        return self._with(state=ScenarioState(), own_names=own_names, same_actors=same)
+        return self._with(
+            state=ScenarioState(), own_names=own_names, known_files=known_files, same_actors=same
+        )
 
     def at(self, place: Place) -> LoweringContext:
         """Return the context for an expression of a constraint."""

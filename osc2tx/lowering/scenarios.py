@@ -171,6 +171,7 @@ class _ProgramLowering:
     ) -> tuple[ir.AbstractScenario | None, Sequence[Composed]]:
         ctx = (self._ctx.quiet() if is_inherited_only else self._ctx).of_scenario(
             frozenset(name for each in lineage_of(scenario) for name in each.members),
+            self._ctx.model.known_to(each.span.source.name for each in _statements(scenario)),
             same_actors(self._ctx.program.analysis.types[scenario]),
         )
 

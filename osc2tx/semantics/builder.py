@@ -80,7 +80,7 @@ class ModelBuilder:
         check_bodies(resolution)
         pass_actors(resolution)
         rename_ambiguous_types(resolution.scope)
-        return _model(root, tuple(walk.files), resolution, library)
+        return _model(root, walk, resolution, library)
 
     def _library(self, walk: ImportWalk) -> Library:
         modules = "all" if "all" in walk.modules else "types" if walk.modules else "none"
@@ -134,7 +134,7 @@ def _namespaces_in(statement: ast.FileStatement) -> tuple[str, ...]:
 
 
 def _model(
-    root: ast.File, files: tuple[ast.File, ...], r: Resolution, library: Library
+    root: ast.File, walk: ImportWalk, r: Resolution, library: Library
 ) -> SemanticModel:
     below = library.resolution
     scenarios = tuple(
@@ -153,7 +153,7 @@ def _model(
     symbols = tuple(r.scope.declared)
     return SemanticModel(
         root=root,
-        files=files,
+        files=tuple(walk.files),
         scenarios=scenarios,
         actions=actions,
         types={**below.types, **r.types},
@@ -166,4 +166,5 @@ def _model(
         elements=list_elements(symbols, references, bindings),
         global_parameters=tuple(s for s in symbols if isinstance(s, FieldSymbol)),
         callees=frozenset(binding.callee for binding in bindings.values()),
+        imported=walk.imported,
     )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Set
 from dataclasses import field
 
 from osc2tx.semantics.symbols import (
@@ -53,6 +53,7 @@ class SemanticModel:
         elements: The elements of lists of objects that constraints describe one by one.
         global_parameters: Those of the program (§7.3.14), in the order of `symbols`.
         callees: All symbols that are called, invoked or applied.
+        imported: The names of the files that each file imports itself.
     """
 
     root: ast.File
@@ -69,6 +70,18 @@ class SemanticModel:
     elements: Mapping[FieldSymbol, tuple[FieldSymbol, ...]] = field(default_factory=dict)
     global_parameters: tuple[FieldSymbol, ...] = ()
     callees: frozenset[Symbol] = frozenset()
+    imported: Mapping[str, Set[str]] = field(default_factory=dict)
+
+    def known_to(self, names: Iterable[str]) -> frozenset[str]:
+        """Return the names of some files and of all files that they import, also indirectly."""
+        known: set[str] = set()
+        pending = list(names)
+        while pending:
+            name = pending.pop()
+            if name not in known:
+                known.add(name)
+                pending += self.imported.get(name, ())
+        return frozenset(known)
 
     def element_of(self, list_: Symbol | None, index: ast.Expression) -> FieldSymbol | None:
         """Return an element of a list that is a declared object."""

@@ -226,6 +226,31 @@ def test_a_base_in_another_file_is_imported(tmp_path: Path) -> None:
         assert trace_of(scenarios["cruise"]) == expected
 
 
+def test_a_base_whose_file_leaves_a_field_open_is_imported(tmp_path: Path) -> None:
+    """Only the importing file mentions the field: the class of the base does without it."""
+    base = "struct case:\n    id: string\n\nscenario straight inherits town:\n    about: case\n"
+    derived = """
+scenario cruise inherits straight:
+    keep(about.id == "REQ-7")
+    do go: ego.drive(duration: 2s) with:
+        speed(v_ego)
+
+scenario open inherits straight:
+    is_known: bool = (about.id != "")
+    do go: ego.drive(duration: 2s) with:
+        speed(v_ego)
+"""
+    write(tmp_path, lib__town=HEAD + TOWN + "\n" + base)
+    write(tmp_path, a=f'import "lib/town.osc"\n{HEAD}{derived}')
+    compilation = compiled(tmp_path / "a.osc")
+    assert compilation.module is not None
+    assert classes_in(compilation.module.python) == ["Cruise", "Open"]
+    assert 'self.fix_to("about", Case(id="REQ-7"))' in compilation.module.python
+    assert 'self.required("about.id", str)' in compilation.module.python
+    with scenarios_of_module(compilation.module, sibling_modules(compilation)) as scenarios:
+        assert trace_of(scenarios["cruise"])
+
+
 def test_a_repository_runs_as_whole_classes_do(tmp_path: Path) -> None:
     """Two scenarios of each family: bases and moves of libraries, fixed and open values."""
     make_repository(tmp_path, 16)

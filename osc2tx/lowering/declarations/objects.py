@@ -29,6 +29,7 @@ from osc2tx.lowering.declarations.members_read import Path, with_reads_written
 from osc2tx.lowering.declarations.user_fields import (
     TypeSymbol,
     class_default,
+    is_left_out,
     is_plain,
     object_default,
     stated_default,
@@ -213,7 +214,7 @@ class ObjectLowering:
         for each in dict.fromkeys(chain.from_iterable(lineages)):
             for member in user_fields(self._ctx, each):
                 inner = (*key, member)
-                if inner in found:
+                if inner in found or is_left_out(self._ctx, each, member):
                     continue
                 if _contains_itself(key, member):
                     self._ctx.unsupported(

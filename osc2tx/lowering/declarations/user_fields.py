@@ -117,6 +117,18 @@ def is_optional(ctx: LoweringContext, field: sym.FieldSymbol) -> bool:
     return not _has_value(field) and home not in ctx.program.mentioned.get(field, ())
 
 
+def is_left_out(ctx: LoweringContext, symbol: TypeSymbol, field: sym.FieldSymbol) -> bool:
+    """Whether objects of the present scenario do without a field of their class.
+
+    Only files that the scenario does not import mention it: what a class of a scenario consists of
+    does not depend on the files that import its file.
+    """
+    known = ctx.known_files
+    is_whole = all(each.span.source.name in known for each in symbol.statements)
+    mentioned = ctx.program.mentioned.get(field, frozenset())
+    return is_whole and is_optional(ctx, field) and known.isdisjoint(mentioned)
+
+
 def _fields(symbol: TypeSymbol) -> Iterator[sym.FieldSymbol]:
     for member in own_members(symbol):
         is_sampled = isinstance(member, sym.FieldSymbol) and isinstance(

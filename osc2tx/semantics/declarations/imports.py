@@ -36,6 +36,7 @@ class ImportWalk:
         sink: Receives the diagnostics.
         relaxations: The dialect of the file.
         files: The files, each after those that it imports.
+        imported: The names of the files that each file imports itself.
         modules: Parts of the library that are needed, `"types"` or `"all"`.
         is_legacy: Whether library names need no prefix in the null namespace.
     """
@@ -45,6 +46,7 @@ class ImportWalk:
     sink: DiagnosticSink
     relaxations: Relaxations
     files: list[ast.File] = field(default_factory=list)
+    imported: dict[str, set[str]] = field(default_factory=dict)
     modules: set[str] = field(default_factory=set)
     is_legacy: bool = False
     _seen: set[object] = field(default_factory=set)
@@ -75,7 +77,7 @@ class ImportWalk:
         else:
             imported = self.load(statement, statement.span.source)
             if imported is not None:
-                self._visit_once(imported)
+                self._follow(statement, imported)
                 return
             is_library = statement.module[0] in RESERVED
             advice = library if is_library else self.import_help(statement)
@@ -104,12 +106,12 @@ class ImportWalk:
             f'`import {name}` is taken for `import "{name}"`',
             help=write(statement.span, f'import "{name}"'),
         )
-        self._visit_once(found)
+        self._follow(quoted, found)
 
     def _import_file(self, statement: ast.Import, uri: str, source: SourceFile) -> None:
         imported = self.load(statement, source)
         if imported is not None:
-            self._visit_once(imported)
+            self._follow(statement, imported)
             return
         name = PurePosixPath(uri).name
         if name in self.relaxations.dialect.library_files and "/" not in uri:
@@ -134,7 +136,9 @@ class ImportWalk:
             advice = "for a scenario of ScenarioRunner check with `--dialect carla`"
         self._report(statement, f'no file `"{uri}"`', advice)
 
-    def _visit_once(self, file: ast.File) -> None:
+    def _follow(self, statement: ast.Import, file: ast.File) -> None:
+        importing = statement.span.source.name
+        self.imported.setdefault(importing, set()).add(file.span.source.name)
         if _identity(file) not in self._seen:
             self.visit(file)
 
