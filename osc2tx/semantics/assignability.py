@@ -7,6 +7,7 @@ from collections.abc import Callable
 from osc2tx.diagnostics.fixes import Help, write
 from osc2tx.semantics.builtins import TIME
 from osc2tx.semantics.conversions import NUMBERS, converts, dimension_of
+from osc2tx.semantics.names.hidden_types import described, hidden_type
 from osc2tx.semantics.names.scenario_runner import reads_as_quantity
 from osc2tx.semantics.resolution import Environment, Resolution
 from osc2tx.semantics.types import (
@@ -93,8 +94,10 @@ def check_fits(
         r.report(
             "OSC301",
             expression.span,
-            f"{_named(what, target)} must be `{target}`, not `{source}`",
-            help=(advise and advise(source)) or _mismatch_help(expression, source, target),
+            f"{_named(what, target)} must be `{target}`, not {described(source)}",
+            help=(advise and advise(source))
+            or hidden_type(r, source)
+            or _mismatch_help(expression, source, target),
         )
     elif source in NUMBERS:
         _report_missing_unit(r, expression, target, what)

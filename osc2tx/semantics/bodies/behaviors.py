@@ -24,6 +24,7 @@ from osc2tx.semantics.expressions.methods import resolve_call, type_itself
 from osc2tx.semantics.names.actions_on_structs import actions_on
 from osc2tx.semantics.names.colloquial_names import OUTPUT
 from osc2tx.semantics.names.member_lookup import lookup_value
+from osc2tx.semantics.names.hidden_types import described, hidden_type
 from osc2tx.semantics.names.unknown_names import report_unimported
 from osc2tx.semantics.resolution import Environment, Resolution, declared_here
 from osc2tx.semantics.scope import CallableBehavior
@@ -233,8 +234,8 @@ def _find_of_actor(
         r.report(
             "OSC301",
             node.actor.span,
-            f"`{type_}` is not an actor; it has no behaviors",
-            help=actions_on(r, type_, node),
+            f"{described(type_)} is not an actor; it has no behaviors",
+            help=hidden_type(r, type_) or actions_on(r, type_, node),
         )
         return None
     found = find_behavior(r, type_.symbol, node.behavior, env.context)

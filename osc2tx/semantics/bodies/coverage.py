@@ -217,6 +217,8 @@ def _check_cross(
                 "OSC412",
                 element.span,
                 f"`{item.name}` is sampled by `{item.event}`, not by `{event}`",
+                help="one event samples all items of a cross: state `event:` for them accordingly,"
+                " or declare an item with the same `expression:` and the other event",
             )
 
 

@@ -7,6 +7,7 @@ from osc2tx.semantics.assignability import check_condition, check_fits
 from osc2tx.semantics.conversions import are_related, common_type, dimension_of, is_numeric
 from osc2tx.semantics.names.colloquial_names import QUOTIENTS
 from osc2tx.semantics.names.member_lookup import lookup_value
+from osc2tx.semantics.names.unknown_names import in_newest_version
 from osc2tx.semantics.resolution import Environment, Resolution
 from osc2tx.semantics.types import (
     BOOL,
@@ -150,18 +151,24 @@ def _infer_equality(r: Resolution, node: ast.Binary, left: Type, right: Type) ->
     if is_numeric(left) and is_numeric(right):
         _check_comparable(r, node, left, right)
     elif not are_related(left, right):
-        enum = next((t for t in (left, right) if isinstance(t, EnumType)), None)
         r.report(
             "OSC304",
             node.span,
             f"`{left}` and `{right}` cannot be compared",
-            help=(
-                f"`{enum}` has members such as `{next(iter(enum.symbol.members), '')}`"
-                if enum
-                else None
-            ),
+            help=_member_meant(r, left, node.right) or _member_meant(r, right, node.left),
         )
     return BOOL
+
+
+def _member_meant(r: Resolution, enum: Type, other: ast.Expression) -> str | None:
+    """Return the help for a comparison of an enum with a name that is none of its members."""
+    if not isinstance(enum, EnumType):
+        return None
+    if isinstance(other, ast.NameExpression):
+        newer = in_newest_version(r, enum.symbol.name, other.name)
+        if newer:
+            return f"`{other.name}` is another declaration here; as a member {newer}"
+    return f"`{enum}` has members such as `{next(iter(enum.symbol.members), '')}`"
 
 
 def _infer_ordering(r: Resolution, node: ast.Binary, left: Type, right: Type) -> Type:
