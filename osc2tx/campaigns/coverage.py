@@ -62,7 +62,8 @@ class Item:
         impossible: Cells that constraints leave no values for.
         hits: Number of samples in each cell.
         samples: How many there were.
-        outside: Those in no bucket.
+        outside: Those in none of the buckets.
+        values: Numbers of an item without buckets, each with its row.
         illegal: Rows with an illegal value.
     """
 
@@ -78,6 +79,7 @@ class Item:
     hits: Counter[Cell] = field(default_factory=Counter)
     samples: int = 0
     outside: int = 0
+    values: list[tuple[float, int]] = field(default_factory=list)
     illegal: list[int] = field(default_factory=list)
 
     def cells(self) -> Iterator[Cell]:
@@ -133,6 +135,10 @@ class Item:
             self.illegal.append(row)
         short = self.name.rpartition(".")[0]
         value = line["value"]
+        if not self.parts and not self.buckets:
+            if isinstance(value, int | float) and not isinstance(value, bool):
+                self.values.append((value, row))
+            return
         if self.parts:
             values = [value[part.name.removeprefix(f"{short}.")] for part in self.parts]
             found = [part.position(each) for part, each in zip(self.parts, values, strict=True)]

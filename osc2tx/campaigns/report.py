@@ -6,12 +6,13 @@ from collections.abc import Sequence
 from typing import Any
 
 from osc2tx.campaigns.coverage import Item, overall
-from osc2tx.campaigns.summary import Results, Run, replay_command, summary_of
+from osc2tx.campaigns.summary import Results, Run, replay_command, spread_of, summary_of
 from osc2tx_runtime.report.page import render_campaign
 
 MOST_ROWS = 10_000  # that are drawn
 BINS = 24
 DIGITS = 6  # significant digits of drawn values
+VISIBLE = 1e-4  # of a value: less is rounding of computed ones
 
 
 def render_report(results: Results, before: Results | None = None) -> str:
@@ -37,7 +38,7 @@ def render_report(results: Results, before: Results | None = None) -> str:
             }
             for each in results.failures
         ],
-        "items": [_item(item) for item in results.items.values()],
+        "items": [_item(item, results.runs) for item in results.items.values()],
         "measures": [_measure(each, results.runs) for each in summary["measures"]],
         "columns": _columns(drawn),
         "good": [int(run["status"] == "success") for run in drawn],
@@ -53,7 +54,8 @@ def drawn_rows(runs: Sequence[Run]) -> list[Run]:
     return sorted((*failed, *others), key=lambda run: int(run["number"]))
 
 
-def _item(item: Item) -> dict[str, Any]:
+def _item(item: Item, runs: Sequence[Run]) -> dict[str, Any]:
+    spread = spread_of(item.values)
     scope, _, short = item.name.rpartition(".")
     possible_cells = list(item.cells()) if item.is_graded else []
     return {
@@ -73,6 +75,7 @@ def _item(item: Item) -> dict[str, Any]:
         "grade": item.grade,
         "samples": item.samples,
         "outside": item.outside,
+        "values": None if spread is None else _distribution(spread, item.values, runs),
         "illegal": item.illegal,
     }
 
@@ -82,16 +85,21 @@ def _key(cell: Sequence[int]) -> str:
 
 
 def _measure(said: dict[str, Any], runs: Sequence[Run]) -> dict[str, Any]:
-    """Return a measure with its distribution, rows that failed apart."""
-    name, least, greatest = said["name"], said["least"], said["greatest"]
+    values = [(run["measures"].get(said["name"]), run["number"]) for run in runs]
+    return _distribution(said, [(value, row) for value, row in values if value is not None], runs)
+
+
+def _distribution(
+    spread: dict[str, Any], values: Sequence[tuple[float, int]], runs: Sequence[Run]
+) -> dict[str, Any]:
+    """Return least, mean and greatest of values with their histogram, rows that failed apart."""
+    least, greatest = spread["least"], spread["greatest"]
+    passed = {run["number"] for run in runs if run["status"] == "success"}
     bins = {True: [0] * BINS, False: [0] * BINS}
-    for run in runs:
-        value = run["measures"].get(name)
-        if value is not None:
-            is_spread = _short(least) != _short(greatest)
-            share = (value - least) / (greatest - least) if is_spread else 0.0
-            bins[run["status"] == "success"][min(int(share * BINS), BINS - 1)] += 1
-    return {**said, "good": bins[True], "bad": bins[False]}
+    for value, row in values:
+        share = (value - least) / (greatest - least) if _differ(least, greatest) else 0.0
+        bins[row in passed][min(int(share * BINS), BINS - 1)] += 1
+    return {**spread, "good": bins[True], "bad": bins[False]}
 
 
 def _columns(runs: Sequence[Run]) -> list[dict[str, Any]]:
@@ -105,12 +113,19 @@ def _columns(runs: Sequence[Run]) -> list[dict[str, Any]]:
             if len(known) < 2 or (source == "measures" and "(" in name):
                 continue
             if all(map(_is_number, known)):
+                if not _differ(min(known), max(known)):
+                    continue
                 columns.append({"name": name, "values": [_short(value) for value in values]})
             elif not any(map(_is_number, known)):
                 labels = sorted({str(value) for value in known})
                 places = [None if each is None else labels.index(str(each)) for each in values]
                 columns.append({"name": name, "values": places, "labels": labels})
     return columns
+
+
+def _differ(least: float, greatest: float) -> bool:
+    """Whether the labels of an axis differ at its ends."""
+    return greatest - least > VISIBLE * max(abs(least), abs(greatest))
 
 
 def _is_number(value: object) -> bool:

@@ -155,6 +155,7 @@ def _item(item: Item) -> dict[str, Any]:
         "grade": item.grade,
         "samples": item.samples,
         "outside": item.outside,
+        "values": spread_of(item.values),
         "illegal_rows": item.illegal,
         "possible": item.possible if item.is_graded else None,
         "holes": len(holes) if item.is_graded else None,
@@ -168,19 +169,22 @@ def measures_of(runs: Sequence[Run]) -> list[dict[str, Any]]:
     found = []
     for name in names:
         values = [(run["measures"].get(name), run["number"]) for run in runs]
-        known = [(value, number) for value, number in values if value is not None]
-        if known:
-            numbers = [value for value, _ in known]
-            least, row = min(known)
-            mean = math.fsum(numbers) / len(numbers)
-            found.append(
-                {
-                    "name": name,
-                    "count": len(known),
-                    "least": least,
-                    "least_row": row,
-                    "mean": mean,
-                    "greatest": max(numbers),
-                }
-            )
+        spread = spread_of([(value, row) for value, row in values if value is not None])
+        if spread is not None:
+            found.append({"name": name, **spread})
     return found
+
+
+def spread_of(values: Sequence[tuple[float, int]]) -> dict[str, Any] | None:
+    """Return the least, mean and greatest of values with their rows; None if there are none."""
+    if not values:
+        return None
+    numbers = [value for value, _ in values]
+    least, row = min(values)
+    return {
+        "count": len(values),
+        "least": least,
+        "least_row": row,
+        "mean": math.fsum(numbers) / len(numbers),
+        "greatest": max(numbers),
+    }

@@ -133,9 +133,7 @@ def _namespaces_in(statement: ast.FileStatement) -> tuple[str, ...]:
             return ()
 
 
-def _model(
-    root: ast.File, walk: ImportWalk, r: Resolution, library: Library
-) -> SemanticModel:
+def _model(root: ast.File, walk: ImportWalk, r: Resolution, library: Library) -> SemanticModel:
     below = library.resolution
     scenarios = tuple(
         s

@@ -15,6 +15,7 @@ from osc2tx.campaigns.junit import render_junit
 from osc2tx.campaigns.report import render_report
 from osc2tx.campaigns.store import Store
 from osc2tx.campaigns.summary import Results, results_of, summary_of
+from osc2tx_shared.classes import replace
 from tests.campaigns.kit import Here, plan_of, run
 from tests.unit.cli.shell import Shell
 
@@ -33,6 +34,7 @@ scenario top:
     cover(v, unit: mps, range: [10..20], every: 5, text: "</script><b>bold</b>")
     cover(w, unit: mps, range: [10..20], every: 5)
     cover(both, items: [v, w])
+    record(end_speed, expression: ego.speed, unit: kph)
     do serial:
         ego.drive(duration: 0.2s) with:
             speed(v)
@@ -94,6 +96,30 @@ def test_the_page_has_all_and_loads_nothing(results: Results) -> None:
     both = next(item for item in data["items"] if item["name"] == "both")
     assert both["impossible"] == ["1,0"]
     assert sum(both["hits"].values()) == 40
+
+
+def test_recorded_numbers_have_a_distribution(results: Results) -> None:
+    """In the unit of the item, and without buckets that they could be outside of."""
+    speeds = [3.6 * run["parameters"]["v"] for run in results.runs]
+    (shown,) = (i for i in data_of(render_report(results))["items"] if i["name"] == "end_speed")
+    said = next(i for i in summary_of(results)["coverage"] if i["name"] == "end_speed")
+    assert (said["grade"], said["outside"]) == (None, 0)
+    assert said["values"]["count"] == said["samples"] == len(speeds)
+    assert said["values"]["least"] == pytest.approx(min(speeds))
+    assert said["values"]["greatest"] == pytest.approx(max(speeds))
+    failed = sum(run["status"] != "success" for run in results.runs)
+    assert sum(shown["values"]["bad"]) == failed > 0
+    assert sum(shown["values"]["good"]) == len(speeds) - failed
+
+
+def test_rounding_is_no_column(results: Results) -> None:
+    runs = [
+        {**each, "measures": {"max_jerk": 1.91818 + (1e-6 if each["number"] else 0.0)}}
+        for each in results.runs
+    ]
+    names = [c["name"] for c in data_of(render_report(replace(results, runs=runs)))["columns"]]
+    assert "max_jerk" not in names
+    assert "v" in names
 
 
 def test_junit_has_each_row_once(results: Results) -> None:

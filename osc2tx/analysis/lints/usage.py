@@ -259,5 +259,7 @@ def _report_field(
         case types.ActorType(symbol=actor):
             if not is_library_actor(actor, "map"):  # the road is there for all
                 sink.report("OSC433", field.span, f"actor `{field.name}` is not used")
+        case types.StructType() if field.constraints:
+            pass  # as with `keep(about.requirement == "REQ-7")`: others read the values of members
         case _:
             sink.report("OSC437", field.span, f"parameter `{field.name}` is never read")

@@ -34,4 +34,3 @@ def hidden_type(r: Resolution, type_: Type) -> str | None:
 
 def _is_library(symbol: NamedSymbol) -> bool:
     return symbol.origin == "library"
-

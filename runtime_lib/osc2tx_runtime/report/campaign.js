@@ -100,6 +100,10 @@ function itemBox(item) {
   if (notes.length) box.append(element("div", { className: "quiet", textContent: notes.join("; ") }));
   if (item.parts.length === 2) box.append(heatMap(item));
   else if (!item.parts.length && item.buckets.length) box.append(...bucketRows(item));
+  else if (item.values) {
+    const { least, least_row: row, mean, greatest } = item.values;
+    box.append(element("div", { textContent: `${exact(least)} (row ${row}) to ${exact(greatest)}, mean ${exact(mean)}` }), histogram(item.values));
+  }
   return box;
 }
 
@@ -135,23 +139,26 @@ function heatMap(item) {
   return element("table", { className: "heat" }, head, ...rows);
 }
 
+/** The distribution of a measure or recorded value; rows that failed are apart. */
+function histogram(each) {
+  const most = Math.max(1, ...each.good.map((count, at) => count + each.bad[at]));
+  const bars = each.good.map((count, at) => {
+    const parts = [["not", each.bad[at]], ["ok", count]].filter(([, size]) => size).map(([className, size]) => {
+      const bar = element("i", { className });
+      bar.style.height = `${100 * size / most}%`;
+      return bar;
+    });
+    return element("span", {}, ...parts);
+  });
+  return element("div", { className: "histogram", title: `${exact(each.least)} to ${exact(each.greatest)}` }, ...bars);
+}
+
 function fillMeasures() {
   const { measures } = DATA;
   byId("measures-card").hidden = !measures.length;
   tableOf(byId("measures"), [["Measure (SI units)"], ["Least", "number"], ["Mean", "number"], ["Greatest", "number"], ["Rows", "number"], ["Row of the least", "number"], ["Distribution"]],
-    measures.map((each) => {
-      const most = Math.max(1, ...each.good.map((count, at) => count + each.bad[at]));
-      const bars = each.good.map((count, at) => {
-        const parts = [["not", each.bad[at]], ["ok", count]].filter(([, size]) => size).map(([className, size]) => {
-          const bar = element("i", { className });
-          bar.style.height = `${100 * size / most}%`;
-          return bar;
-        });
-        return element("span", {}, ...parts);
-      });
-      return [[each.name], [exact(each.least), "number"], [exact(each.mean), "number"], [exact(each.greatest), "number"],
-        [each.count, "number"], [each.least_row, "number"], [element("div", { className: "histogram", title: `${exact(each.least)} to ${exact(each.greatest)}` }, ...bars)]];
-    }));
+    measures.map((each) => [[each.name], [exact(each.least), "number"], [exact(each.mean), "number"], [exact(each.greatest), "number"],
+        [each.count, "number"], [each.least_row, "number"], [histogram(each)]]));
 }
 
 function fillAgainst() {
