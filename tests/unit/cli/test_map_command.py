@@ -34,6 +34,28 @@ def test_what_is_in_a_map(shell: Shell) -> None:
     assert lines["signals"].startswith(f"{dynamic} traffic lights")
 
 
+def test_what_scenarios_name_of_a_map(shell: Shell) -> None:
+    """Ids of roads and lights, and the lanes that `lane(1)`, … are."""
+    listed = shell("map", "urban_crossing").out
+    assert "  road 1 east: 150.0 m\n    along s: lane(1) is -2, lane(2) is -1\n" in listed
+    assert "    against s: lane(1) is 2, lane(2) is 1\n" in listed
+    assert "  traffic light 101: road 1, s = 149.0 m, controller 1\n" in listed
+    assert "along s: lane(1) is 1, lane(2) is 2\n" in shell("map", "left_hand.xodr").out
+    assert "    from s = 300.0 m along s: lane(1) is -2" in shell("map", "merge").out
+
+
+def test_maps_by_name(shell: Shell, monkeypatch: pytest.MonkeyPatch) -> None:
+    """As scenarios name them: in the folders of the settings and of --map-path, and ours."""
+    monkeypatch.chdir(shell.folder)
+    shell.write("osc2tx.toml", 'map_paths = ["roads"]\n')
+    shell.write("roads/step.xodr", map_text(road_text(STEP, 100.0, lanes=LANES)))
+    names = shell("map").out.splitlines()
+    assert {"step.xodr", "highway.xodr"} <= set(names)
+    assert shell("map", "step").out.startswith("step: OpenDRIVE")
+    ended = shell("map", "nowhere.xodr")
+    assert (ended.code, "`nowhere.xodr` not found in" in ended.err) == (4, True)
+
+
 @pytest.mark.parametrize("text", ["", "<OpenDRIVE/>", "<OpenSCENARIO/>"])
 def test_what_is_no_map(shell: Shell, text: str) -> None:
     shell.write("bad.xodr", text)
