@@ -7,8 +7,8 @@ from collections.abc import Callable
 from osc2tx.diagnostics.fixes import Help, write
 from osc2tx.semantics.builtins import TIME
 from osc2tx.semantics.conversions import NUMBERS, converts, dimension_of
-from osc2tx.semantics.names.hidden_types import described, hidden_type
 from osc2tx.semantics.names.scenario_runner import reads_as_quantity
+from osc2tx.semantics.names.unfit_types import described, hidden_type
 from osc2tx.semantics.resolution import Environment, Resolution
 from osc2tx.semantics.types import (
     BOOL,

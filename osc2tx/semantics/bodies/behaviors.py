@@ -21,10 +21,9 @@ from osc2tx.semantics.declarations.resolve_types import (
     report_unknown_behavior,
 )
 from osc2tx.semantics.expressions.methods import resolve_call, type_itself
-from osc2tx.semantics.names.actions_on_structs import actions_on
 from osc2tx.semantics.names.colloquial_names import OUTPUT
 from osc2tx.semantics.names.member_lookup import lookup_value
-from osc2tx.semantics.names.hidden_types import described, hidden_type
+from osc2tx.semantics.names.unfit_types import actions_on, described, hidden_type
 from osc2tx.semantics.names.unknown_names import report_unimported
 from osc2tx.semantics.resolution import Environment, Resolution, declared_here
 from osc2tx.semantics.scope import CallableBehavior

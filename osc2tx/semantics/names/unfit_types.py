@@ -1,12 +1,13 @@
-"""Actions of actors that change a struct: structs themselves have no behaviors (§7.3.8)."""
+"""Values of types that do not fit: structs and behaviors in place of actors."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
 from osc2tx.semantics.resolution import Resolution
+from osc2tx.semantics.scope import NamedSymbol
 from osc2tx.semantics.symbols import ActionSymbol, FieldSymbol
-from osc2tx.semantics.types import ListType, StructType, Type
+from osc2tx.semantics.types import BehaviorType, ListType, StructType, Type
 from osc2tx.syntax import ast
 
 
@@ -60,3 +61,31 @@ def _parameters_of_type(action: ActionSymbol, type_: StructType) -> Iterator[str
             found = member.type.element if isinstance(member.type, ListType) else member.type
             if found == type_:
                 yield member.name
+
+
+def described(type_: Type) -> str:
+    """Return how a message names the type of a value: a behavior with its kind."""
+    return f"{_kind(type_)} `{type_}`" if isinstance(type_, BehaviorType) else f"`{type_}`"
+
+
+def _kind(type_: BehaviorType) -> str:
+    return "action" if isinstance(type_.symbol, ActionSymbol) else "scenario"
+
+
+def hidden_type(r: Resolution, type_: Type) -> str | None:
+    """Return the help for a value of a behavior whose name a type of the library has as well.
+
+    A plain name means the declaration of the user (§7.7.4), so a field `load: trailer` below
+    `scenario trailer` is that scenario.
+    """
+    if not isinstance(type_, BehaviorType):
+        return None
+    hidden = next((s for s in r.scope.types_named(type_.symbol.name) if _is_library(s)), None)
+    if hidden is None:
+        return None
+    library = f"{hidden.namespace}::{hidden.name}"
+    return f"rename that {_kind(type_)}, or write `{library}` for the type of the library"
+
+
+def _is_library(symbol: NamedSymbol) -> bool:
+    return symbol.origin == "library"
