@@ -230,7 +230,7 @@ CODES = _table(
     Code("OSC442", "shared-slot", WARNING, "Members control the same slot.", "7.3.13"),
     Code("OSC443", "map-not-found", WARNING, "The map is not found.", "8.12.2.2.11"),
     Code("OSC444", "too-many-members", ERROR, "Invocations multiply members.", "7.3.13"),
-    Code("OSC445", "offset-without-overlap", WARNING, "An offset has no overlap.", "7.3.13.2"),
+    Code("OSC445", "offset-without-overlap", ERROR, "An offset has no overlap.", "7.3.13.2"),
     # --- 6xx relaxations of a dialect ---
     Code("OSC601", "relaxed-use", WARNING, "A `use` statement is accepted.", "7.7.3"),
     Code("OSC602", "relaxed-do", WARNING, "Several `do` run one after the other.", "7.3.13"),

@@ -50,8 +50,13 @@ class CallCheck:
             return
         self._modifier_arguments(modifier, entry)
 
-    def invocation(self, node: ir.Invoke) -> None:
-        """Check an action with its modifiers."""
+    def invocation(self, node: ir.Invoke, *, ends_unknown: bool) -> None:
+        """Check an action with its modifiers.
+
+        Args:
+            node: The action.
+            ends_unknown: Whether nothing states in advance when it ends.
+        """
         key = node.qualified_name
         entry = self._library.actions.get(key)
         if entry is None and node.is_own:
@@ -70,7 +75,7 @@ class CallCheck:
         others = {"with": None} if node.modifiers else {}
         self._rules(f"`{node.action}`", entry.rules, node.span, node.arguments, others)
         if entry.moves:
-            self._combinations.check(node, physical=entry.physical)
+            self._combinations.check(node, ends_unknown=ends_unknown, physical=entry.physical)
         self._modifiers(node, key, entry.modifiers)
         self._narrowed(node, key, entry)
 

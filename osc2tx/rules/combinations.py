@@ -50,26 +50,36 @@ class CombinationCheck:
         self._sink = sink
         self._lineages = lineages
 
-    def check(self, node: ir.Invoke, *, physical: bool) -> None:
+    def check(self, node: ir.Invoke, *, ends_unknown: bool, physical: bool) -> None:
         """Check an action whose modifiers define its motion."""
-        for clash in self._clashes(node):
+        timing = Timing(has_duration=False, end_is_known=False) if ends_unknown else _timing(node)
+        for clash in self._clashes(node, timing):
             if clash.kind != "twice":
-                self._report(clash)
+                self._report(clash, self._duration_helps(node, clash))
         self._on_lanes(node)
         if physical:
             self._jumping(node)
 
     def twice(self, node: ir.Invoke) -> None:
         """Report modifiers that are applied twice, both to the start or both to the phase."""
-        for clash in self._clashes(node):
+        for clash in self._clashes(node, _timing(node)):
             if clash.kind == "twice":
                 self._report(clash)
 
-    def _clashes(self, node: ir.Invoke) -> Iterator[Clash[_Call]]:
+    def _clashes(self, node: ir.Invoke, timing: Timing) -> Iterator[Clash[_Call]]:
         calls = [_Call(modifier) for modifier in node.modifiers]
-        yield from clashes(calls, self._rules, _timing(node))
+        yield from clashes(calls, self._rules, timing)
 
-    def _report(self, clash: Clash[_Call]) -> None:
+    def _duration_helps(self, node: ir.Invoke, clash: Clash[_Call]) -> bool:
+        """Whether two modifiers of an action without a duration go together with one."""
+        if node.duration is not None:
+            return False
+        timed = Timing(has_duration=True, end_is_known=True)
+        others = self._clashes(node, timed)
+        pairs = [{call.node for call in other.calls} for other in others]
+        return {call.node for call in clash.calls} not in pairs
+
+    def _report(self, clash: Clash[_Call], duration_helps: bool = False) -> None:
         *_, last = (call.node for call in clash.calls)
         match clash.kind:
             case "same thing":
@@ -79,7 +89,8 @@ class CombinationCheck:
                     last.span,
                     f"`{first.name}` and `{last.name}` constrain the same motion",
                     labels=[Label(first.span, "the other modifier")],
-                    help="give one of them",
+                    help="give one of them"
+                    + (", or state the duration of the action" if duration_helps else ""),
                 )
             case "twice":
                 text = f"modifier `{last.name}` is applied twice here"

@@ -23,8 +23,9 @@ def check_rules(module: ir.Module, sink: DiagnosticSink) -> None:
             for modifier in placement.modifiers:
                 check.calls.placing(modifier)
         if isinstance(scenario, ir.Scenario):
+            unknown = {id(node) for node in _with_unknown_end(scenario)}
             for node in ir.walk_behaviors(scenario.body):
-                check.behavior(node)
+                check.behavior(node, ends_unknown=id(node) in unknown)
 
 
 def _triggers_of(declaration: ir.Declaration) -> Iterator[ir.Trigger]:
@@ -35,15 +36,35 @@ def _triggers_of(declaration: ir.Declaration) -> Iterator[ir.Trigger]:
             yield trigger
 
 
+def _with_unknown_end(scenario: ir.Scenario) -> Iterator[ir.Invoke]:
+    """Yield the actions that have no duration, and that no duration around them ends.
+
+    Such a duration is that of a composition that they end with. What invokes the scenario may state
+    one as well.
+    """
+    pending: list[tuple[ir.Behavior, bool]] = [(scenario.body, scenario.is_runnable)]
+    while pending:
+        node, is_unknown = pending.pop()
+        match node:
+            case ir.Invoke(duration=None) if is_unknown or node.until:
+                yield node
+            case ir.CompositionBase():
+                inside = node.duration is None and (is_unknown or bool(node.until))
+                *others, last = node.members
+                pending.append((last, inside or isinstance(node, ir.OneOf)))
+                ends_with = inside or not isinstance(node, ir.Parallel)
+                pending += ((member, ends_with) for member in others)
+
+
 class _Check:
     def __init__(self, declarations: Sequence[ir.Declaration], sink: DiagnosticSink) -> None:
         self.calls = CallCheck(declarations, sink)
         self._domains = domains_of(declarations)
         self._sink = sink
 
-    def behavior(self, node: ir.Behavior) -> None:
+    def behavior(self, node: ir.Behavior, *, ends_unknown: bool) -> None:
         if isinstance(node, ir.Invoke):
-            self.calls.invocation(node)
+            self.calls.invocation(node, ends_unknown=ends_unknown)
         match node:
             case (
                 ir.Invoke(duration=ir.ExpressionBase() as duration)

@@ -17,11 +17,14 @@ from osc2tx.analysis.constraints.specialisation import Special
 from osc2tx.analysis.tree_walk import do_members
 from osc2tx.semantics import SemanticModel
 from osc2tx.semantics import symbols as sym
+from osc2tx.semantics.builtins import DURATION
 from osc2tx.semantics.conversions import symbol_of
 from osc2tx.semantics.model import Binding
 from osc2tx.semantics.scope import supertypes
 from osc2tx.syntax import ast
 from osc2tx_shared.classes import replace
+
+Operator = ast.CompositionOperator
 
 DEEPEST_MEMBER = 4  # levels of user-defined structs below a field
 
@@ -220,9 +223,18 @@ class Collector:
                     yield from self._of_instance(place, member, member.arguments)
                     yield from self._of_with(place, member, member.with_members)
                 case ast.Composition():
+                    yield from self._of_composition(place, member)
                     yield from self._of_with(place, member, member.with_members)
                 case _:
                     continue
+
+    def _of_composition(self, place: Place, node: ast.Composition) -> Iterator[Entry]:
+        """Yield the value of the duration of a composition, if a constraint can mention it."""
+        for argument in node.arguments if _is_mentioned_in(node.with_members) else ():
+            is_first = argument.name is None and node.operator is not Operator.PARALLEL
+            if is_first or (argument.name is not None and argument.name.text == DURATION.name):
+                key = (*place.prefix, node, DURATION)
+                yield self._write.setting(place, key, DURATION.type, argument.value, "argument")
 
     def _of_with(
         self,
@@ -289,9 +301,12 @@ def _can_be_constrained(node: Instance) -> bool:
     """Whether some constraint can mention the parameters of a library behavior or modifier."""
     if isinstance(node, ast.ModifierApplication):
         return False
-    return node.label is not None or any(
-        isinstance(member, ast.KeepConstraint) for member in node.with_members
-    )
+    return node.label is not None or _is_mentioned_in(node.with_members)
+
+
+def _is_mentioned_in(members: tuple[ast.WithMember, ...]) -> bool:
+    """Whether a constraint of a `with`, or of a modifier in it, can mention parameters by `it`."""
+    return any(isinstance(m, ast.KeepConstraint | ast.ModifierApplication) for m in members)
 
 
 def _is_about_values(entry: Entry, behavior: Key) -> bool:

@@ -1,6 +1,8 @@
-"""Times that are valid, but probably unintended (§7.3.10, §7.3.13.2)."""
+"""Times that are probably unintended (§7.3.10), or contradict their overlap (§7.3.13.2)."""
 
 from __future__ import annotations
+
+from math import copysign
 
 from osc2tx.analysis.tree_walk import NodesByKind
 from osc2tx.diagnostics import DiagnosticSink
@@ -28,20 +30,36 @@ def report_times(model: SemanticModel, nodes: NodesByKind, sink: DiagnosticSink)
 
 
 def _report_offset(node: ast.Composition, sink: DiagnosticSink) -> None:
-    """Report an offset of starts beside the default overlap, by which members start together."""
+    """Report an offset of starts that the default overlap excludes: members start together."""
     given = {"overlap" if a.name is None else a.name.text: a for a in node.arguments}
     offset = given.get("start_to_start")
     if node.operator is not ast.CompositionOperator.PARALLEL or offset is None:
         return
-    value = offset.value
-    is_zero = isinstance(value, ast.PhysicalLiteral) and value.value == 0
-    if "overlap" not in given and not is_zero:
+    if "overlap" not in given and _excludes_zero(offset.value):
         sink.report(
             "OSC445",
             offset.span,
-            "the members of a `parallel` without `overlap` start together; it is taken as `any`",
+            "the members of a `parallel` without `overlap` start together",
             help=insert_before(offset.span, "overlap: any, ", "write `overlap: any` before it"),
         )
+
+
+def _excludes_zero(value: ast.Expression) -> bool:
+    """Whether a written time, or a range between two of them, is not zero."""
+    ends = (value.lower, value.upper) if isinstance(value, ast.RangeLiteral) else (value,)
+    signs = {_sign(end) for end in ends}
+    return signs in ({1.0}, {-1.0})
+
+
+def _sign(value: ast.Expression) -> float:
+    """Return the sign of a written time; zero for zero, and for what is computed."""
+    match value:
+        case ast.Unary(operator=ast.UnaryOperator.NEGATE):
+            return -_sign(value.operand)
+        case ast.PhysicalLiteral() if value.value != 0:
+            return copysign(1.0, value.value)
+        case _:
+            return 0.0
 
 
 def _elapsed(event: ast.EventSpecification) -> ast.Expression | None:

@@ -108,7 +108,7 @@ class BehaviorLowering:
             "comments": self._invocations.comments_of(node, comments),
             "members": members,
             "is_phase": is_phase,
-            "duration": self._time(arguments.get("duration")) or kept.get("duration"),
+            "duration": kept.get("duration") or self._time(arguments.get("duration")),
             "until": lower_until(self._ctx, node.with_members),
             "end_comments": node.end_comments,
         }

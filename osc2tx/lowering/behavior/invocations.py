@@ -273,10 +273,14 @@ class InvocationLowering:
     ) -> tuple[ir.Argument, ...]:
         """Return the arguments and the equivalent constraints `keep(it.parameter …)` (§6)."""
         binding = self._ctx.model.binding_of(node)
-        arguments = lower_arguments(self._ctx, binding, node.arguments)
+        fields = {parameter.name: parameter for parameter, _ in binding.arguments}
+        arguments = tuple(
+            argument
+            for argument in lower_arguments(self._ctx, binding, node.arguments)
+            if not self._constraints.narrows((node, fields[argument.parameter]))
+        )
         if not is_composed(binding.callee):
             arguments = draw_ranges(self._ctx, binding, arguments, name_of_member(node))
-        fields = {parameter.name: parameter for parameter, _ in binding.arguments}
         for argument in arguments:
             key: Key = (node, fields[argument.parameter])
             if not isinstance(argument.value, ir.RangeValue):
@@ -289,7 +293,7 @@ class InvocationLowering:
         return arguments + self.kept_arguments(node)
 
     def kept_arguments(self, node: ast.Invocation | ast.Composition) -> tuple[ir.Argument, ...]:
-        """Return the constrained values of the parameters that have no argument."""
+        """Return the constrained values of the parameters without an argument of one value."""
         binding = self._ctx.model.bindings.get(node)
         is_scenario = binding is not None and is_composed(binding.callee)
         arguments = []

@@ -116,7 +116,7 @@ class Overlap:
 
 def overlap_of(node: ir.Parallel) -> Overlap:
     """Return the offsets that a `parallel` states: those of its overlap, or its own."""
-    kind = node.overlap or ("start" if node.start_to_start is None else "any")
+    kind = node.overlap or "start"
     given = (node.start_to_start, node.end_to_end)
     starts, ends = map(_stated, OFFSETS[kind], given)
     return Overlap(starts, ends, OFFSETS[kind])
@@ -175,6 +175,23 @@ class OverlapTimes:
         self._node = node
         self._overlap = overlap_of(node)
 
+    def contradicts_overlap(self) -> bool:
+        """Report a stated offset that the overlap excludes; return whether there is one."""
+        node, offsets = self._node, self._overlap.bounds(self._equations.bounds)
+        for given, found in zip(
+            (node.start_to_start, node.end_to_end), offsets or (), strict=False
+        ):
+            if given is not None and found[0] > found[1] + SLACK:
+                kind = "" if node.overlap is not None else ", which is the default"
+                self._equations.ctx.sink.report(
+                    "OSC519",
+                    given.span,
+                    f"this offset contradicts the overlap `{node.overlap or 'start'}`{kind}",
+                    help="write `overlap: any`, or another kind, or omit the offset",
+                )
+                return True
+        return False
+
     def relate(self, primary: Terms, others: Sequence[Terms]) -> bool:
         """Require the offsets; return whether they are possible."""
         for other in others:
@@ -217,7 +234,7 @@ class OverlapTimes:
         message = f"members of {shown(first)} and {shown(own)} cannot overlap as this requires"
         labels = [Label(term.span, "one of them") for term in other]
         advice = None
-        if self._node.overlap is None and self._node.start_to_start is None:
+        if self._node.overlap is None:
             advice = "without `overlap` they start together; `overlap: any` omits this"
         self._equations.ctx.sink.report(
             "OSC519", self._node.span, message, labels=labels, help=advice

@@ -80,9 +80,11 @@ class ParallelTimes:
     def _offset(self, node: ir.Parallel, lengths: list[Length]) -> Length:
         """Relate members to the offsets between them, and to the duration around them."""
         known = [length.terms for length in lengths if isinstance(length, Known)]
-        if len(lengths) < 2 or not isinstance(lengths[0], Known):
+        if len(lengths) < 2:
             return None
         times = OverlapTimes(self._equations, node)
+        if times.contradicts_overlap() or not isinstance(lengths[0], Known):
+            return None
         if not times.relate(known[0], known[1:]) or len(known) < len(lengths):
             return None
         whole = times.whole(known)

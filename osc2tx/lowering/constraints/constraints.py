@@ -154,7 +154,8 @@ class ConstraintLowering:
     def of_instance(self, node: Instance) -> Iterator[tuple[sym.FieldSymbol, Setting]]:
         """Yield the constrained parameters of an invocation or composition.
 
-        Arguments are constraints too; a parameter that has one is left to it.
+        Arguments are constraints too; a parameter that has one is left to it, except a range that
+        other constraints narrow.
         """
         binding = self.ctx.model.bindings.get(node)
         is_of_library = binding is not None and binding.callee.origin != "user"
@@ -163,7 +164,7 @@ class ConstraintLowering:
             parameter, mentioned = key[-1], self.found.by_key[key]
             if len(key) != 2 or not isinstance(parameter, sym.FieldSymbol):
                 continue
-            if any(c.subject == key and c.origin == "argument" for c in mentioned):
+            if any(_is_argument(c, key) for c in mentioned) and not self.narrows(key):
                 continue
             own = [c.origin for c in mentioned if c.subject == key]
             is_default = bool(own) and {*own} == {"default value"}  # the declaration decides
@@ -177,6 +178,12 @@ class ConstraintLowering:
             setting = self.setting(key, parameter.type)
             if not setting.is_empty:
                 yield parameter, setting
+
+    def narrows(self, key: Key) -> bool:
+        """Whether constraints narrow a range that is passed for a number."""
+        mentioned = self.found.by_key.get(key, ())
+        passed = [c for c in mentioned if _is_argument(c, key)]
+        return bool(passed) and all(c.is_range for c in passed) and len(mentioned) > len(passed)
 
     def structs_of_instance(self, node: Instance) -> Iterator[sym.FieldSymbol]:
         """Yield the parameters of an invocation that constraints describe by their fields."""
@@ -418,6 +425,10 @@ class ConstraintLowering:
             return ()
         self._with_comments.add(node)
         return statement_comments(node)
+
+
+def _is_argument(constraint: Constraint, key: Key) -> bool:
+    return constraint.subject == key and constraint.origin == "argument"
 
 
 def _definition_among(own: list[Constraint]) -> Constraint | None:

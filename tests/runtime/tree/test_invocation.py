@@ -212,7 +212,7 @@ def later(top: type[Scenario], own: type[Scenario], waits: bool) -> type[Scenari
             invoked = self.invoke("x", own)
             if waits:
                 return Serial("late", Wait(elapsed(0.1)), invoked)
-            return Parallel("late", Wait(elapsed(0.1)), invoked, start_to_start=0.05)
+            return Parallel("late", Wait(elapsed(0.1)), invoked, overlap="any", start_to_start=0.05)
 
     return Late
 

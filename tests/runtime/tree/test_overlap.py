@@ -113,12 +113,12 @@ def test_overlaps(overlap: str, lengths: str, expected: str) -> None:
 @pytest.mark.parametrize(
     ("options", "lengths", "expected"),
     [
-        ({"start_to_start": 2 * STEP}, "4 4", "0-4 2-6"),
-        ({"start_to_start": -2 * STEP}, "4 4", "2-6 0-4"),
-        ({"start_to_start": (STEP, 3 * STEP)}, "4 open", "0-4 1-4"),
-        ({"start_to_start": (-3 * STEP, -STEP)}, "4 6 4", "1-5 0-6 0-4"),
-        ({"start_to_start": 2 * STEP}, "?4 ?4", "0-4 2-6"),
-        ({"start_to_start": 2 * STEP}, "open 4", "0-6 2-6"),
+        ({"overlap": "any", "start_to_start": 2 * STEP}, "4 4", "0-4 2-6"),
+        ({"overlap": "any", "start_to_start": -2 * STEP}, "4 4", "2-6 0-4"),
+        ({"overlap": "any", "start_to_start": (STEP, 3 * STEP)}, "4 open", "0-4 1-4"),
+        ({"overlap": "any", "start_to_start": (-3 * STEP, -STEP)}, "4 6 4", "1-5 0-6 0-4"),
+        ({"overlap": "any", "start_to_start": 2 * STEP}, "?4 ?4", "0-4 2-6"),
+        ({"overlap": "any", "start_to_start": 2 * STEP}, "open 4", "0-6 2-6"),
         ({"start_to_start": 0}, "4 2", "0-4 0-2"),
         ({"end_to_end": 2 * STEP}, "4 open", "0-4 0-6"),
         ({"end_to_end": -STEP}, "4 open", "0-4 0-3"),
@@ -127,7 +127,7 @@ def test_overlaps(overlap: str, lengths: str, expected: str) -> None:
         ({"end_to_end": -2 * STEP, "overlap": "inside"}, "6 2", "0-6 2-4"),
         ({"end_to_end": 2 * STEP, "overlap": "final"}, "?4 2", "0-4 4-6"),
         ({"start_to_start": STEP, "overlap": "inside"}, "4 2", "0-4 1-3"),
-        ({"start_to_start": STEP, "end_to_end": STEP}, "4 4", "0-4 1-5"),
+        ({"overlap": "any", "start_to_start": STEP, "end_to_end": STEP}, "4 4", "0-4 1-5"),
         ({"overlap": "end", "duration": 6 * STEP}, "open 2", "0-6 4-6"),
     ],
 )
@@ -142,7 +142,11 @@ def test_offsets(options: Any, lengths: str, expected: str) -> None:
         ({"overlap": "equal"}, "?6 ?4", "0.200 s: overlap equal: a still runs when b has ended"),
         ({"overlap": "inside"}, "?2 4", "0.100 s: overlap inside: b still runs when a has ended"),
         ({"overlap": "full"}, "?4 2", "0.100 s: overlap full: a still runs when b has ended"),
-        ({"start_to_start": 4 * STEP}, "?2 2", "overlap any: a has ended before b starts"),
+        (
+            {"overlap": "any", "start_to_start": 4 * STEP},
+            "?2 2",
+            "overlap any: a has ended before b starts",
+        ),
         ({"end_to_end": (0, STEP)}, "?2 ?5", "b still runs 0.05 s after the end of a"),
         ({"end_to_end": (2 * STEP, 9 * STEP)}, "?3 ?4", "overlap start: b ended 0.05 s after a"),
     ],
@@ -162,11 +166,15 @@ def test_what_only_the_run_can_tell_is_watched(options: Any, lengths: str, reaso
         ({"overlap": "equal"}, "4 6", "b does not fit the length of a"),
         ({"overlap": "inside"}, "4 6", "b does not fit the length of a"),
         ({"overlap": "full"}, "4 2", "b does not fit the length of a"),
-        ({"start_to_start": 5 * STEP}, "4 2", "b does not fit the length of a"),
-        ({"start_to_start": 5 * STEP}, "4 open", "b would start after the end of the first member"),
-        ({"start_to_start": -5 * STEP}, "?4 2", "b would end before the start"),
+        ({"overlap": "any", "start_to_start": 5 * STEP}, "4 2", "b does not fit the length of a"),
         (
-            {"start_to_start": STEP},
+            {"overlap": "any", "start_to_start": 5 * STEP},
+            "4 open",
+            "b would start after the end of the first member",
+        ),
+        ({"overlap": "any", "start_to_start": -5 * STEP}, "?4 2", "b would end before the start"),
+        (
+            {"overlap": "any", "start_to_start": STEP},
             "open open",
             "start_to_start: 0.05 s) cannot be scheduled: no member has a length",
         ),
@@ -177,7 +185,7 @@ def test_what_only_the_run_can_tell_is_watched(options: Any, lengths: str, reaso
             "end_to_end: 0.05 s to 0.1 s) cannot be scheduled: end_to_end contradicts it",
         ),
         ({"end_to_end": -STEP}, "?4 open", "the length of a cannot be determined"),
-        ({"start_to_start": (-3 * STEP, -3 * STEP)}, "8 4 open", ""),
+        ({"overlap": "any", "start_to_start": (-3 * STEP, -3 * STEP)}, "8 4 open", ""),
     ],
 )
 def test_what_cannot_be_scheduled_is_refused_before_the_run(
@@ -215,7 +223,12 @@ def test_lengths_of_compositions_add_up() -> None:
         (Until(Wait(elapsed(0.1)), elapsed(0.1)), 2),
         (Until(Drive(hero), elapsed(0.3), never), None),
         (Parallel("p", Wait(elapsed(0.2)), ends(), Drive(npc)), 6),
-        (Parallel("p", Wait(elapsed(0.2)), Wait(elapsed(0.1)), start_to_start=0.15), 5),
+        (
+            Parallel(
+                "p", Wait(elapsed(0.2)), Wait(elapsed(0.1)), overlap="any", start_to_start=0.15
+            ),
+            5,
+        ),
         (Parallel("p", Wait(elapsed(0.2)), Wait(never)), None),
     ]
     for node, steps in cases:

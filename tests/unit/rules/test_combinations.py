@@ -83,7 +83,7 @@ def compiler_refuses(*calls: tuple[str, dict[str, Any], str]) -> bool:
         duration=second,
     )
     check = CombinationCheck(sink, {"ego": ("vehicle",)})
-    check.check(node, physical=False)
+    check.check(node, ends_unknown=False, physical=False)
     check.twice(node)
     return sink.has_errors
 

@@ -32,7 +32,7 @@ def starts_of(ctx: Context, node: ir.Parallel) -> list[float | None]:
         return [0.0] * len(node.members)
     timed = [member for member in node.members if not ir.is_instant(member)]
     parts = [(member.name, length_of(ctx, member), ir.is_open(member)) for member in timed]
-    overlap = node.overlap or ("any" if node.start_to_start else "start")
+    overlap = node.overlap or "start"
     starts, ends = (
         None if each is None else ctx.values.bounds(each)
         for each in (node.start_to_start, node.end_to_end)

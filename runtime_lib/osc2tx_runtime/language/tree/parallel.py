@@ -60,7 +60,7 @@ class Parallel(Composition, ParallelComposite):
     Args:
         name: Label, or a description.
         *members: In the order of the source.
-        overlap: Their relation in time; None is `start`, or `any` with a `start_to_start`.
+        overlap: Their relation in time.
         duration: Its duration: seconds, or (least, most) seconds.
         start_to_start: Seconds, or (least, most) seconds, from the start of the first member to
             that of each other member.
@@ -71,7 +71,7 @@ class Parallel(Composition, ParallelComposite):
         self,
         name: str,
         *members: Behaviour,
-        overlap: Overlap | None = None,
+        overlap: Overlap = "start",
         duration: Duration | None = None,
         start_to_start: Duration | None = None,
         end_to_end: Duration | None = None,
@@ -79,7 +79,7 @@ class Parallel(Composition, ParallelComposite):
         policy = ParallelPolicy.SuccessOnAll(synchronise=True)
         super().__init__(name, policy=policy, children=members)
         self._limit(duration)
-        self.overlap: Overlap = overlap or ("start" if start_to_start is None else "any")
+        self.overlap: Overlap = overlap
         self.start_to_start = start_to_start
         self.end_to_end = end_to_end
         self._bounding: frozenset[Behaviour] = frozenset()
