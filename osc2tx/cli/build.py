@@ -157,6 +157,8 @@ def _written_out_dir(out_dir: Path) -> Path:
         raise click.UsageError(
             f"`-o {out_dir}`: a link leads to {target}, out of the current folder; name that folder"
         )
+    if out_dir.exists() and not out_dir.is_dir():
+        raise click.UsageError(f"`-o {out_dir}`: is a file; name a folder for the outputs")
     return out_dir
 
 

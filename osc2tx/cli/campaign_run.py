@@ -7,6 +7,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 import click
+from click.core import ParameterSource
 
 from osc2tx.building.jobs import compile_all, run_all
 from osc2tx.building.workers import processors
@@ -50,15 +51,23 @@ class CampaignCommand(RunCommand):
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Complete the command line by the settings of the file."""
+        origin = ""
         for path in (Path(arg) for arg in args if arg.endswith((".osc", ".py"))):
             with suppress(ConfigError):  # reported when the settings are read
-                stated = ConfigFiles().for_source(path).campaign_settings(path)
+                config = ConfigFiles().for_source(path)
+                stated, origin = config.campaign_settings(path), str(config.path)
                 ctx.default_map = {
                     FIELDS.get(name, name.replace("-", "_")): _stated(name, texts)
                     for name, texts in stated.items()
                 }
                 break
-        return super().parse_args(ctx, args)
+        try:
+            return super().parse_args(ctx, args)
+        except click.BadParameter as error:
+            name = "" if error.param is None else error.param.name or ""
+            if ctx.get_parameter_source(name) is not ParameterSource.DEFAULT_MAP:
+                raise
+            raise ConfigError(f"{origin}: {error.format_message()}") from None
 
 
 FIELDS = {"kpi": "kpis"}  # where an option is called otherwise in `run`

@@ -8,6 +8,7 @@ from pathlib import Path
 import click
 
 from osc2tx.cli.options import seen_from, target_options
+from osc2tx.compilation.inputs import InputError
 from osc2tx.config import ConfigFiles, GivenOptions, InForce, Origin
 from osc2tx.support.paths import real_path
 from osc2tx_shared.text import in_json, say
@@ -18,6 +19,8 @@ from osc2tx_shared.text import in_json, say
 @target_options
 def config(path: Path, given: GivenOptions) -> None:
     """Show the effective settings for a scenario file or a folder, and their origins."""
+    if not path.exists():
+        raise InputError(f"{path}: no such file or folder")
     configs = ConfigFiles()
     found = configs.for_folder(path) if path.is_dir() else configs.for_source(path)
     rows = [

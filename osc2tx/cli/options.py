@@ -11,7 +11,7 @@ from typing import Any
 
 import click
 
-from osc2tx.config import Config, ConfigFiles, GivenOptions
+from osc2tx.config import Config, ConfigError, ConfigFiles, GivenOptions
 from osc2tx.options import DIALECTS, ONE_OF_POLICIES, STANDARDS, TARGETS, XML_PROFILES, XML_VERSIONS
 from osc2tx.support.paths import real_path
 
@@ -34,9 +34,13 @@ def stated_sources(project: Config, what: str) -> tuple[str, ...]:
 
     Raises:
         click.UsageError: If it states none.
+        ConfigError: If one of them does not exist.
     """
     if not project.sources:
         raise click.UsageError(f"nothing to {what}: name a file or folder, or set `sources`")
+    for path in project.sources:
+        if not Path(path).exists():
+            raise ConfigError(f"{project.path}: `sources`: there is no file or folder {path}")
     return tuple(str(seen_from(path, Path.cwd())) for path in project.sources)
 
 

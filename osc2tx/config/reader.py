@@ -44,7 +44,7 @@ def _read_toml(path: Path) -> dict[str, Any]:
     import tomllib  # few folders have a file
 
     try:
-        return tomllib.loads(path.read_text(encoding="utf-8"))
+        return tomllib.loads(path.read_text(encoding="utf-8-sig"))
     except OSError as error:
         raise ConfigError(f"{path}: cannot be read: {error.strerror}") from None
     except UnicodeDecodeError:

@@ -180,7 +180,8 @@ class _Case:
             )
         except (LookupError, ValueError, MapError) as error:
             # third-party documents name missing parts
-            reason = f"it cannot be played here: {type(error).__name__} {error}"
+            what = error if isinstance(error, MapError) else f"something is missing in it: {error}"
+            reason = f"it cannot be played here: {what}"
             raise NoEvidence(reason) from error
 
 

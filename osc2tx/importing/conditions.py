@@ -184,7 +184,7 @@ class Conditions(Reader):
         rule, value = node.said("rule"), self._values.text(node, "value")
         given = self._document.parameters.get(said)
         if given is None:
-            node.leave_out(f"there is no parameter {said}; it is never met here")
+            node.leave_out(f"there is no parameter `{said}`; it is never met here")
             return Condition("never", node)
         if rule not in RULES:
             raise Unresolved(f"rule has no value {rule!r}", node.place)

@@ -93,17 +93,25 @@ def read_source(path: Path, name: str, sink: DiagnosticSink) -> SourceFile | Non
         return None
     position = data.find(b"\0")
     if position >= 0:
-        message = f"cannot read `{name}`: NUL byte at offset {position}"
+        message = f"cannot read `{name}`: NUL byte at {_place(data, position)}"
         sink.report("OSC101", None, message, help="is it a text file in UTF-8?")
         return None
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         offset = error.start + (3 if data.startswith(b"\xef\xbb\xbf") else 0)
-        message = f"cannot read `{name}`: no UTF-8 at byte offset {offset}"
+        message = f"cannot read `{name}`: no UTF-8 at {_place(data, offset)}"
         sink.report("OSC101", None, message, help="save the file in UTF-8")
         return None
     return SourceFile(name, text, path)
+
+
+def _place(data: bytes, offset: int) -> str:
+    """Return the position of a byte, as editors count it."""
+    start = data.rfind(b"\n", 0, offset) + 1
+    before = data[start:offset].decode("utf-8-sig", "replace")
+    line = data.count(b"\n", 0, offset) + 1
+    return f"line {line}, column {len(before) + 1}"
 
 
 def _reason(error: OSError | ValueError) -> str:

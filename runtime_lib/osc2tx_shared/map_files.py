@@ -44,5 +44,5 @@ def places_in_project(name: str | None, folders: Sequence[Path]) -> tuple[Path, 
 
 def map_names(folders: Sequence[Path]) -> list[str]:
     """Return the names of the maps in folders, and those of the runtime."""
-    found = {path.name for folder in (*folders, SHIPPED) for path in folder.glob("*.xodr")}
-    return sorted(found)
+    places = (path for folder in (*folders, SHIPPED) for path in folder.glob("*.xodr"))
+    return sorted({path.name for path in places if path.is_file()})

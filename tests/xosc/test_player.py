@@ -39,6 +39,16 @@ def test_what_is_not_played_is_refused_with_a_reason(before: str, after: str, re
         Evaluator(TEXT.replace(before, after), MAP, 0.05).play(5.0)
 
 
+def test_a_route_of_a_catalog_is_refused_with_a_reason() -> None:
+    route = (
+        "</PrivateAction><PrivateAction><RoutingAction><AssignRouteAction>"
+        '<CatalogReference catalogName="routes" entryName="north"/>'
+        "</AssignRouteAction></RoutingAction></PrivateAction>"
+    )
+    with pytest.raises(Unplayable, match="the route has no positions"):
+        Evaluator(TEXT.replace("</PrivateAction>", route, 1), MAP, 0.05).play(5.0)
+
+
 def test_what_is_missing_has_a_place() -> None:
     text = TEXT.replace(' conditionEdge="none"', "")
     with pytest.raises(Unresolved, match=r"^\d+:\d+: <Condition> without conditionEdge"):

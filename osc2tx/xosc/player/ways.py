@@ -25,8 +25,10 @@ class Ways:
     def begin(self, body: Body, node: Element) -> Running | None:
         """Return an action that begins."""
         if node.tag in ("AssignRouteAction", "AcquirePositionAction"):
-            *_, last = node.below(xml.Position)
-            goal, _ = place_of(last.inner, self._scene.bodies, self._scene.map)
+            places = list(node.below(xml.Position))
+            if not places:
+                raise Unplayable("the route has no positions: it is one of a catalog", node.place)
+            goal, _ = place_of(places[-1].inner, self._scene.bodies, self._scene.map)
             if not isinstance(goal, LanePosition):
                 found = self._scene.map.locate(goal.x, goal.y, heading=goal.h)
                 if found is None:

@@ -68,9 +68,10 @@ def parse_stream(
         root = parser.close()
     except (etree.XMLSyntaxError, ValueError) as error:
         line = getattr(error, "lineno", None)
-        raise MapError(name, f"is not well-formed XML ({error}); export the map again", line) from (
-            error
-        )
+        reason = getattr(error, "msg", None) or error  # without lxml's `(<string>, line 1)`
+        raise MapError(
+            name, f"is not well-formed XML ({reason}); export the map again", line
+        ) from (error)
     if root.tag.startswith("{"):
         _strip_namespaces(root)
     if root.tag != "OpenDRIVE":

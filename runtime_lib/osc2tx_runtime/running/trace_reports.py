@@ -102,9 +102,12 @@ def folder_report(
 def _read_trace(path: Path, name: str) -> Trace:
     try:
         with path.open(encoding="utf-8") as lines:
-            return Trace(lines, name)
+            trace = Trace(lines, name)
     except (OSError, ValueError) as error:
         raise InputError(f"trace {path} cannot be read: {error}") from error
+    if not trace.run.header:
+        raise InputError(f"trace {path} cannot be read: no header, as `run --trace` writes it")
+    return trace
 
 
 def _write(page: Path, text: str) -> None:

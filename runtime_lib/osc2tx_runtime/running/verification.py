@@ -93,6 +93,8 @@ def _step_of(state: Line, dt: float, before: int) -> int:
 
 def _unreadable(path: Path, error: Exception) -> InputError:
     """Return the error for an invalid trace."""
+    if isinstance(error, json.JSONDecodeError):
+        return InputError(f"trace {path} cannot be read: no JSON Lines, as `run --trace` writes it")
     return InputError(f"trace {path} cannot be read: {error}")
 
 

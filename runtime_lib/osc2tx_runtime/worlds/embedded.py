@@ -57,7 +57,9 @@ def driver_of(actor: str, path: str) -> Driver:
             driver: Driver = getattr(import_module(module), name)()
             has_step = callable(getattr(driver, "step", None))
     except ScenarioError as error:
-        raise SettingsError(f"--ego {actor}={path}: {error.message}") from error
+        is_missing = isinstance(error.__cause__, ModuleNotFoundError)
+        advice = "; name its folder, PYTHONPATH=FOLDER, or install it" if is_missing else ""
+        raise SettingsError(f"--ego {actor}={path}: {error.message}{advice}") from error
     if not has_step:
         raise SettingsError(f"--ego {actor}={path}: has no method step(observation, dt)")
     return driver

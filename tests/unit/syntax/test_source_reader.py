@@ -19,10 +19,11 @@ def test_line_ends_and_byte_order_mark(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("data", "message"),
     [
-        (b"abc\xff\n", "no UTF-8 at byte offset 3"),
-        (b"\xef\xbb\xbfab\xff\n", "no UTF-8 at byte offset 5"),
-        (b"ab\0\n", "NUL byte at offset 2"),
-        ("abc".encode("utf-16"), "NUL byte at offset 3"),
+        (b"abc\xff\n", "no UTF-8 at line 1, column 4"),
+        (b"\xef\xbb\xbfab\xff\n", "no UTF-8 at line 1, column 3"),
+        ("# Größe\n# Ä".encode() + b"\xfc\n", "no UTF-8 at line 2, column 4"),
+        (b"ab\0\n", "NUL byte at line 1, column 3"),
+        ("abc".encode("utf-16"), "NUL byte at line 1, column 4"),
     ],
 )
 def test_no_text(tmp_path: Path, data: bytes, message: str) -> None:

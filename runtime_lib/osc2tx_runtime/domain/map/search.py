@@ -38,7 +38,10 @@ def _find(name: str | None, folders: Sequence[Path]) -> Path:
         if entry.is_file():
             return entry
         if not entry.is_dir():
-            raise InputError(f"--map-path {entry}: there is no such folder or file")
+            raise InputError(
+                f"{entry}: there is no such folder or map"
+                " (from --map-path, or `map_paths` of the settings)"
+            )
     wanted = name or DEFAULT_MAP
     for path in map_places(wanted, folders):
         if path.is_file():
