@@ -29,7 +29,7 @@ from osc2tx.compilation.driver import Compilation
 from osc2tx.compilation.inputs import InputError
 from osc2tx.compilation.needed_modules import sibling_modules
 from osc2tx.compilation.products import files_of_module
-from osc2tx.config import ConfigFiles, GivenOptions
+from osc2tx.config import COMPILE_SETTINGS, ConfigFiles, GivenOptions
 from osc2tx.diagnostics import Diagnostic, Severity
 from osc2tx.options import Dialect, OneOfPolicy, Standard, Target, XmlProfile, XmlVersion
 from osc2tx.support.paths import MODULE
@@ -43,6 +43,8 @@ __all__ = [
     "compile_file",
     "compile_text",
 ]
+
+_CHOICES = {setting.key: setting.choices for setting in COMPILE_SETTINGS}
 
 
 @dataclass(frozen=True, slots=True)
@@ -155,11 +157,12 @@ def compile_file(
 
     Raises:
         InputError: If there is no such file.
+        TypeError, ValueError: If there is no such option, or no such value of it.
         ConfigError: If a settings file is wrong.
     """
     if Path(path).is_dir():
         raise InputError(f"{path}: is a folder; name one scenario file")
-    (job,) = find_jobs([path], GivenOptions(**options), ConfigFiles())
+    (job,) = find_jobs([path], _given(options), ConfigFiles())
     return _result(job.compilation())
 
 
@@ -185,9 +188,10 @@ def compile_text(
         **options: See `Options`.
 
     Raises:
+        TypeError, ValueError: If there is no such option, or no such value of it.
         ConfigError: If a settings file is wrong.
     """
-    job = job_of_text(name, folder, GivenOptions(**options))
+    job = job_of_text(name, folder, _given(options))
     return _result(job.compilation(text=text))
 
 
@@ -216,9 +220,10 @@ def check_text(
         **options: See `Options`.
 
     Raises:
+        TypeError, ValueError: If there is no such option, or no such value of it.
         ConfigError: If a settings file is wrong.
     """
-    compilation = job_of_text(name, folder, GivenOptions(**options)).compilation(text=text)
+    compilation = job_of_text(name, folder, _given(options)).compilation(text=text)
     compilation.check()
     return CheckResult(
         name=compilation.name,
@@ -245,10 +250,23 @@ def apply_fixes(
         **options: See `Options`.
 
     Raises:
+        TypeError, ValueError: If there is no such option, or no such value of it.
         ConfigError: If a settings file is wrong.
     """
-    job = job_of_text(name, folder, GivenOptions(**options))
+    job = job_of_text(name, folder, _given(options))
     return fix_text(job, text, unsafe=unsafe).text
+
+
+def _given(options: Options) -> GivenOptions:
+    """Return options after a check of their names and values, as a settings file has it."""
+    for name, value in options.items():
+        if name not in Options.__annotations__:
+            known = ", ".join(Options.__annotations__)
+            raise TypeError(f"there is no option `{name}`; known options: {known}")
+        choices = _CHOICES.get(name)
+        if value is not None and choices and value not in choices:
+            raise ValueError(f"{name} is {value!r}: write {' or '.join(map(repr, choices))}")
+    return GivenOptions(**options)
 
 
 def _result(compilation: Compilation) -> CompileResult:

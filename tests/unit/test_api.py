@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import doctest
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -77,6 +78,23 @@ def test_what_is_not_a_file_is_refused(tmp_path: Path) -> None:
         compile_file(tmp_path / "none.osc")
     with pytest.raises(InputError, match="is a folder"):
         compile_file(tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("options", "error", "message"),
+    [
+        ({"standard": "2.2"}, TypeError, "no option `standard`; known options: std, dialect"),
+        ({"std": "3"}, ValueError, "std is '3': write '2.1' or '2.2'"),
+        ({"dialect": "carlaa"}, ValueError, "write 'asam' or 'carla'"),
+        ({"xml_version": "1.9"}, ValueError, "xml_version is '1.9'"),
+    ],
+)
+def test_wrong_options_are_refused(
+    options: dict[str, Any], error: type[Exception], message: str
+) -> None:
+    for call in (compile_text, api.check_text, api.apply_fixes):
+        with pytest.raises(error, match=message):
+            call("", **options)
 
 
 def test_names_of_the_package() -> None:
