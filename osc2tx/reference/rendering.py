@@ -31,6 +31,8 @@ def as_text(entry: Entry) -> str:
     parts = [_title(declaration), signature(declaration)]
     if declaration.meaning:
         parts.insert(1, _sentence(declaration.meaning))
+    if declaration.kind == "enum":
+        parts += _only_in(declaration.members)
     told = [(each.name, _meaning(each)) for each in declaration.members if each.meaning]
     if told:
         width = max(len(name) for name, _ in told)
@@ -40,6 +42,8 @@ def as_text(entry: Entry) -> str:
     parts += [fact.replace("`", "") for fact in entry.facts]
     if entry.inherited:
         parts.append(f"Inherited: {', '.join(map(_short, entry.inherited))}")
+    if entry.users:
+        parts.append(f"Used by: {_users(entry, '')}")
     if entry.actions:
         parts.append(f"Actions: {', '.join(entry.actions)}")
     if entry.modifiers:
@@ -84,8 +88,7 @@ def as_markdown(entry: Entry) -> str:
     if shown.xml_example:
         parts += ["The example in OpenSCENARIO XML:", f"```xml\n{shown.xml_example}\n```"]
     if entry.users:
-        more = f", and {len(entry.users) - MANY} more" if len(entry.users) > MANY else ""
-        parts += ["## Used by", ", ".join(f"`{user}`" for user in entry.users[:MANY]) + more]
+        parts += ["## Used by", _users(entry, "`")]
     return "\n\n".join(part for part in parts if part) + "\n"
 
 
@@ -110,6 +113,20 @@ def as_data(entry: Entry) -> dict[str, Any]:
         "example": entry.shown.example,
         "xml_example": entry.shown.xml_example,
     }
+
+
+def _users(entry: Entry, quote: str) -> str:
+    more = f", and {len(entry.users) - MANY} more" if len(entry.users) > MANY else ""
+    return ", ".join(f"{quote}{user}{quote}" for user in entry.users[:MANY]) + more
+
+
+def _only_in(members: Sequence[Member]) -> list[str]:
+    """Return which members only one version of the standard has."""
+    versions = sorted({each.version for each in members if each.version})
+    return [
+        f"Only in {version}: {', '.join(each.name for each in members if each.version == version)}"
+        for version in versions
+    ]
 
 
 def topic_as_text(topic: Topic) -> str:
@@ -149,7 +166,8 @@ def topic_as_data(topic: Topic) -> dict[str, Any]:
 def _topic_title(topic: Topic) -> str:
     section = topic.section and f", OpenSCENARIO DSL 2.2 section {topic.section}"
     names = [topic.name, *(topic.names if topic.is_of_language else ())]
-    return f"{topic.kind} {', '.join(dict.fromkeys(names))}{section}"
+    only = topic.version and f", only in {topic.version}"
+    return f"{topic.kind} {', '.join(dict.fromkeys(names))}{section}{only}"
 
 
 def _sentence(text: str) -> str:

@@ -30,6 +30,7 @@ class Topic:
         meaning: Its description, whole sentences or a phrase.
         example: Lines that use it; empty without.
         units: Of a member whose type, or the type of its result, is physical.
+        version: `2.1` or `2.2` if only this version of the standard has a member, else empty.
     """
 
     kind: str
@@ -40,6 +41,7 @@ class Topic:
     meaning: str = ""
     example: str = ""
     units: tuple[str, ...] = ()
+    version: str = ""
 
     @property
     def is_of_language(self) -> bool:
@@ -92,6 +94,7 @@ def _members() -> Iterator[Topic]:
                 meaning=member.meaning,
                 example=examples.get(name, ""),
                 units=units.get(member.type.removeprefix("range of "), ()),
+                version=member.version,
             )
 
 

@@ -73,6 +73,25 @@ def test_members_of_one_version_say_so() -> None:
     assert versions["target_xyz"] == versions["target_st"] == ""
 
 
+def test_values_of_one_version_say_so(shell: Shell) -> None:
+    """What a scenario of 2.1 cannot use is marked: in the enum, and where it is asked for."""
+    assert (
+        "\nOnly in 2.2: heavy_truck, micro_mobility_device, van,"
+        in shell("reference", "vehicle_category").out
+    )
+    assert shell("reference", "van").out.startswith(
+        "enum member vehicle_category.van, OpenSCENARIO DSL 2.2 section 8.7.16, only in 2.2\n"
+    )
+
+
+def test_users_of_a_type_are_named(shell: Shell) -> None:
+    """An abstract type leads to those that one can use."""
+    assert (
+        "Used by: struct relative_path_pose_3d, struct relative_path_st,"
+        in shell("reference", "relative_path").out
+    )
+
+
 def test_an_entry_as_the_standard_has_it() -> None:
     """Figures from the parameter table of the standard, 8.8.3.3."""
     data = as_data(find("vehicle.change_lane")[0])
