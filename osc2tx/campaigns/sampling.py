@@ -8,6 +8,7 @@ from typing import Any, Protocol
 
 from osc2tx.campaigns.aims import Aim
 from osc2tx_runtime.campaigns import Plan, Row, RowResult
+from osc2tx_runtime.kpis import MEASURES
 from osc2tx_shared.classes import dataclass
 
 from .store import CampaignError
@@ -54,17 +55,34 @@ def wanted_rows(
     """Return the task of a sampler, or a search: `random` where neither is named.
 
     Raises:
-        CampaignError: Both are, or the search does not state its aim.
+        CampaignError: Both are, the search does not state its aim, or a condition of failure is on
+            a value that no measure has.
         SettingsError: There is no such measure.
     """
     if sampler and search:
         raise CampaignError(
             f"--sampler {sampler}: a search selects the rows; use only one of the options"
         )
+    _check_conditions(plan)
     aim = Aim.parse(search, plan.measures, search_batch) if search else None
     return Wanted(
         "search" if aim else sampler or "random", plan.settings.seed, samples, levels, aim
     )
+
+
+def _check_conditions(plan: Plan) -> None:
+    """Refuse a condition that never holds since no selected measure has its value.
+
+    Measures of other packages may have values of any name.
+    """
+    if any(name not in MEASURES for name in plan.measures):
+        return
+    known = [value for name in plan.measures for value in MEASURES[name]().results()]
+    for each in plan.fail_if:
+        if each.measure.partition("(")[0] not in known:
+            raise CampaignError(
+                f"--fail-if {each}: no measure has this value; available: {', '.join(known)}"
+            )
 
 
 class Findings:

@@ -13,6 +13,8 @@ from typing import Any
 import numpy as np
 import pytest
 
+from osc2tx.campaigns import CampaignError
+from osc2tx.campaigns.sampling import wanted_rows
 from osc2tx_runtime.campaigns import Condition, Executor, Row
 from osc2tx_runtime.errors import SettingsError
 from osc2tx_runtime.kpis import MEASURES, encroachment, measures_by_name
@@ -209,6 +211,16 @@ def test_a_row_fails_if_a_measure_says_so(condition: str, status: str) -> None:
 def test_what_is_no_condition(text: str) -> None:
     with pytest.raises(SettingsError, match="write MEASURE<NUMBER"):
         Condition.parse(text)
+
+
+def test_a_condition_on_a_value_that_no_measure_has_is_refused() -> None:
+    """It would never hold, and no row would fail."""
+    plan = plan_of(CRASH, "min_gap", "collisions")
+    good = ("min_gap<1", "min_gap(ego,other)<1", "collision_speed>1")
+    wanted_rows(replace(plan, fail_if=tuple(map(Condition.parse, good))), None, 1, 3)
+    for text in ("min_gab<1", "min_ttc<1"):
+        with pytest.raises(CampaignError, match="available: min_gap, collisions, collision_speed"):
+            wanted_rows(replace(plan, fail_if=(Condition.parse(text),)), None, 1, 3)
 
 
 def test_measures_do_not_change_the_run() -> None:
