@@ -1,9 +1,9 @@
 """The intermediate representation: the meaning of a program, for any backend.
 
 Nodes are frozen data without references to syntax or symbols; each has its span. Modules, in
-reading order: `values`, `expressions`, `behaviors`, `declarations`, `user_types`,
-`coverage`, `nodes`; then `traversal`, `trees`, `occurrences`, `compare`, `inheritance`, `verify`
-(the invariants) and `dump` (the printable form).
+reading order: `values`, `expressions`, `behaviors`, `declarations`, `user_types`, `coverage`,
+`nodes`; then `traversal`, `trees`, `starts`, `occurrences`, `compare`, `inheritance`, `verify` (the
+invariants) and `dump` (the printable form).
 """
 
 from osc2tx.ir.alternatives import is_drawn, is_partly_drawn
@@ -92,6 +92,7 @@ from osc2tx.ir.expressions import (
 from osc2tx.ir.inheritance import Additions, additions, is_named_after, without_bases
 from osc2tx.ir.nodes import AbstractScenario, Module, Override, Placement, Scenario
 from osc2tx.ir.occurrences import WAITABLE, Occurrences, early_triggers, emitted_by, triggers_of
+from osc2tx.ir.starts import starts_at_actions
 from osc2tx.ir.traversal import applied_with, bounds, children, constant, is_live, rewrite, walk
 from osc2tx.ir.trees import (
     actors_of,

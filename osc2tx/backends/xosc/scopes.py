@@ -116,11 +116,12 @@ def chosen_key(node: ir.InvokeScenario, values: Values) -> str:
 
 
 class _Place(NamedTuple):
-    """Where a scenario is invoked: see `Scope`, and the keys of it and those around it."""
+    """Where a scenario is invoked: see `Scope`; `around` are its key and those around it."""
 
     prefix: str
     path: str
     around: tuple[str, ...]
+    is_first: bool = True
 
 
 class _Opener:
@@ -160,6 +161,7 @@ class _Opener:
         values = Values(scenario, self._types, {**chosen, **given}, unknown or {})
         done = deeds(scenario)
         scope = Scope(scenario, values, dict(handed_in), place.prefix, place.path, done)
+        scope.is_first = place.is_first
         for declaration in scenario.declarations:
             if isinstance(declaration, ir.Actor) and declaration.name not in handed_in:
                 self._join(declaration, scope)
@@ -172,8 +174,10 @@ class _Opener:
                     continue
                 if callee.key in place.around:
                     continue
-                inner = self._invoke(node, callee, scope, place.around)
-                inner.is_first = scope.is_first and ir.is_first(scenario.body, node)
+                is_first = place.is_first and ir.is_first(scenario.body, node)
+                if not is_first:
+                    callee = ir.starts_at_actions(callee)
+                self._invoke(node, callee, scope, place.around, is_first=is_first)
         return scope
 
     def _join(self, actor: ir.Actor, scope: Scope) -> None:
@@ -192,8 +196,14 @@ class _Opener:
         scope.values.sizes[actor.name] = member.sizes
 
     def _invoke(
-        self, node: ir.InvokeScenario, callee: ir.Scenario, scope: Scope, around: tuple[str, ...]
-    ) -> Scope:
+        self,
+        node: ir.InvokeScenario,
+        callee: ir.Scenario,
+        scope: Scope,
+        around: tuple[str, ...],
+        *,
+        is_first: bool,
+    ) -> None:
         label = node.label or node.scenario.rpartition(".")[2]
         given = scope.values.given_below(f"{label}.")
         unknown: dict[str, Inexpressible] = {}
@@ -212,9 +222,8 @@ class _Opener:
             else:
                 given[name] = value
         path = self._paths.new(f"{scope.path}_{label}" if scope.path else label)
-        place = _Place(f"{scope.prefix}{label}_", path, (*around, callee.key))
+        place = _Place(f"{scope.prefix}{label}_", path, (*around, callee.key), is_first)
         inner = self.open(callee, given, handed_in, place, unknown)
         scope.inner[node.span] = inner
         if node.label is not None:
             scope.by_label[node.label] = inner
-        return inner

@@ -94,10 +94,22 @@ def apply_modifiers(leaf: Leaf) -> Changes:
             continue
         with leaf.ctx.report_as(call.construct, call.span):
             if call.at == "start" and call.name != "speed":
-                raise Inexpressible("what has to hold at the start is not checked in the XML")
+                require_at_start(leaf, call)
+                continue
             changes.extend(handler(leaf, call))
             call.finish()
     return tuple(changes)
+
+
+def require_at_start(leaf: Leaf, call: Arguments) -> None:
+    """Report what has to hold when an action begins: the run in the world checks it.
+
+    Raises:
+        Inexpressible: It is where an actor sets out that nothing places before.
+    """
+    if leaf.enters:
+        raise Inexpressible("where an actor is that only sets out later")
+    call.doubt("a scenario fails if it does not hold at the start, which XML does not check")
 
 
 def to_goal(

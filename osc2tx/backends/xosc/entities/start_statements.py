@@ -97,8 +97,6 @@ def starts_of(ctx: Context) -> list[Start]:
             acts = placement.is_later or not scope.is_first  # it acts already, or enters
             if placement.is_implied and (acts or (member is not None and member.name in spawns)):
                 continue
-            if placement.is_throughout and not scope.is_first:
-                continue  # the action states it when it begins
             if is_map(ctx, placement.actor):
                 check_map(ctx, placement)
                 continue

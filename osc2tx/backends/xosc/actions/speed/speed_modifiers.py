@@ -6,7 +6,7 @@ from math import inf
 
 from osc2tx.backends.xosc.actions.arguments import Arguments
 from osc2tx.backends.xosc.actions.leaf import UNKNOWN_SPEED, Change, Changes, Leaf
-from osc2tx.backends.xosc.actions.registry import modifier
+from osc2tx.backends.xosc.actions.registry import modifier, require_at_start
 from osc2tx.backends.xosc.actions.speed.acceleration import speed_by, user_shape
 from osc2tx.backends.xosc.actions.speed.courses import (
     SAME,
@@ -95,19 +95,21 @@ def _speed(leaf: Leaf, call: Arguments) -> Changes:
     if target is None:
         raise Inexpressible("no speed is stated")
     if call.at == "start" and not may_jump(leaf):
-        return _holds(leaf, target)
+        return _holds(leaf, call, target)
     rate = _rate_beside(leaf)
     if rate is not None:
         pace = Pace("constant", rate)
     return (change_speed(leaf, target, leaf.in_time(call, pace)),)
 
 
-def _holds(leaf: Leaf, target: float) -> Changes:
+def _holds(leaf: Leaf, call: Arguments, target: float) -> Changes:
     """Check a speed that has to be there already."""
     speed = leaf.state.speed
-    if speed is not None and speed.low - 1e-6 <= target <= speed.high + 1e-6:
-        return ()
-    raise Inexpressible("the speed at the start is another one, and must not jump")
+    if speed is None:
+        require_at_start(leaf, call)
+    elif not speed.low - 1e-6 <= target <= speed.high + 1e-6:
+        raise Inexpressible("the speed at the start is another one, and must not jump")
+    return ()
 
 
 def _rate_beside(leaf: Leaf) -> float | None:
