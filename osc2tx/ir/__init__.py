@@ -92,7 +92,6 @@ from osc2tx.ir.expressions import (
 from osc2tx.ir.inheritance import Additions, additions, is_named_after, without_bases
 from osc2tx.ir.nodes import AbstractScenario, Module, Override, Placement, Scenario
 from osc2tx.ir.occurrences import WAITABLE, Occurrences, early_triggers, emitted_by, triggers_of
-from osc2tx.ir.starts import starts_at_actions
 from osc2tx.ir.traversal import applied_with, bounds, children, constant, is_live, rewrite, walk
 from osc2tx.ir.trees import (
     actors_of,

@@ -17,6 +17,7 @@ from osc2tx.backends.xosc.names import Deed, deeds
 from osc2tx.backends.xosc.values.constants import Constant, Named
 from osc2tx.backends.xosc.values.folding import Values
 from osc2tx.backends.xosc.values.objects import types_of
+from osc2tx.ir.starts import starts_at_actions
 from osc2tx.losses.entries import Inexpressible, Remedy
 from osc2tx.xosc.names import Names
 from osc2tx_shared.classes import dataclass, replace
@@ -176,7 +177,7 @@ class _Opener:
                     continue
                 is_first = place.is_first and ir.is_first(scenario.body, node)
                 if not is_first:
-                    callee = ir.starts_at_actions(callee)
+                    callee = starts_at_actions(callee)
                 self._invoke(node, callee, scope, place.around, is_first=is_first)
         return scope
 
