@@ -70,6 +70,7 @@ class CampaignCommand(RunCommand):
             raise ConfigError(f"{origin}: {error.format_message()}") from None
 
 
+BROKEN = frozenset({"error", "crashed"})  # statuses of rows that say nothing of the scenario
 FIELDS = {"kpi": "kpis"}  # where an option is called otherwise in `run`
 
 
@@ -242,6 +243,9 @@ def summary(name: str, store: Store, ended: Progress, aim: Aim | None) -> Iterat
     """Yield the lines that describe the content of a store."""
     counts = ", ".join(f"{number} {status}" for status, number in store.counts().items())
     yield f"{name}: {count_of(ended.done, 'row')} in {store.path}, {ended.new} new: {counts}"
+    if BROKEN & store.counts().keys():
+        first = next(run for run in store.runs() if run["status"] in BROKEN)
+        yield f"  row {first['number']}: {first['status']}: {first['reason']}"
     if ended.left_out:
         share = ended.done / (ended.done + ended.left_out)
         yield (

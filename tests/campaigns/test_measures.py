@@ -17,7 +17,7 @@ from osc2tx.campaigns import CampaignError
 from osc2tx.campaigns.sampling import wanted_rows
 from osc2tx_runtime.campaigns import Condition, Executor, Row
 from osc2tx_runtime.errors import SettingsError
-from osc2tx_runtime.kpis import MEASURES, encroachment, measures_by_name
+from osc2tx_runtime.kpis import MEASURES, encroachment, measures_by_name, registry
 from osc2tx_runtime.kpis.measure import Measure, Moving, Scene
 from osc2tx_runtime.kpis.pairs import MinGap, MinTimeGap, MinTimeToCollision, box_distance
 from osc2tx_runtime.kpis.registry import (
@@ -253,6 +253,31 @@ def test_own_measures_are_found_by_their_entry_point(
     assert result.measures == {"steps": float(result.steps)}
     with pytest.raises(SettingsError, match="there is no such measure; available: min_ttc"):
         measures_by_name(["min_tttc"])
+
+
+@pytest.mark.parametrize(
+    ("results", "reason"),
+    [
+        ("{'steps': '3'}", "measure Steps: its value steps is '3', no number or None"),
+        ("1 / 0", "measure Steps raised ZeroDivisionError"),
+        ("3", "measure Steps raised TypeError"),
+    ],
+)
+def test_what_own_measures_do_wrong_is_an_error_of_the_row(
+    results: str, reason: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    class Steps:
+        def observe(self, scene: Scene) -> None: ...
+
+        def results(self) -> Any:
+            return eval(results)
+
+    monkeypatch.setattr(registry, "MEASURES", {"steps": Steps})
+    executor = Executor(plan_of(f"import osc.standard\n\nscenario plain:{DRIVES}", "steps"))
+    result = executor.run(Row(0, 0))
+    executor.close()
+    assert (result.status, result.measures) == ("error", {})
+    assert reason in result.reason
 
 
 def test_encroachment_is_that_of_all_pairs_of_places(monkeypatch: pytest.MonkeyPatch) -> None:

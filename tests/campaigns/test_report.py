@@ -15,6 +15,7 @@ from osc2tx.campaigns.junit import render_junit
 from osc2tx.campaigns.report import render_report
 from osc2tx.campaigns.store import Store
 from osc2tx.campaigns.summary import Results, results_of, summary_of
+from osc2tx.cli.campaign_run import summary
 from osc2tx_shared.classes import replace
 from tests.campaigns.kit import Here, plan_of, run
 from tests.unit.cli.shell import Shell
@@ -163,6 +164,17 @@ def test_the_command(place: Path, tmp_path: Path, capsys: pytest.CaptureFixture[
     ended = shell("campaign", "report", empty)
     assert ended.code == 2
     assert "no rows yet" in ended.err
+
+
+def test_the_last_lines_of_a_run_state_why_rows_broke(tmp_path: Path) -> None:
+    """A row that could not run says nothing of the scenario."""
+    road = 'road: map with:\n        keep(it.map_file == "nowhere.xodr")\n    ego: vehicle'
+    plan = plan_of(TEXT.replace("ego: vehicle", road))
+    ended = run(plan, tmp_path / "broken.campaign", "random", 2, Here())
+    with Store(tmp_path / "broken.campaign") as store:
+        lines = list(summary("top", store, ended, None))
+    assert lines[0].endswith("2 new: 2 error")
+    assert lines[1].startswith("  row 0: error: map `nowhere.xodr` not found")
 
 
 def test_several_campaigns(

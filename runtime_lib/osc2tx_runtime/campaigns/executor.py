@@ -128,10 +128,14 @@ class Executor:
             reason, source = error.message, error.source
         except Exception as error:  # internal, or of the user's code: it affects this row alone
             reason = f"internal error: {message_of(error)}"
-        measures = {
-            name: value if value is None or math.isfinite(value) else None
-            for name, value in measuring.results().items()
-        }
+        measures: dict[str, float | None] = {}
+        try:
+            measures = {
+                name: value if value is None or math.isfinite(value) else None
+                for name, value in measuring.results().items()
+            }
+        except ScenarioError as error:
+            status, reason, source = "error", "; ".join(filter(None, (reason, error.message))), None
         broken = [text for each in self._plan.fail_if if (text := each.broken_by(measures))]
         if broken and status != "error":
             status, reason = "failure", "; ".join(filter(None, (*broken, reason)))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from numbers import Real
 from typing import Any
 
 from osc2tx_runtime.errors import OwnCode, ScenarioError, SettingsError
@@ -164,10 +165,20 @@ class Measuring:
         self.samples.append((kind, dict(values)))
 
     def results(self) -> dict[str, float | None]:
-        """Return all values by name; empty for a run that never began."""
+        """Return all values by name; empty for a run that never began.
+
+        Raises:
+            ScenarioError: A measure of the user raises an exception, or has values of other types.
+        """
         found: dict[str, float | None] = {}
         for measure in self._measures:
-            found.update(measure.results())
+            told = f"measure {type(measure).__name__}"
+            with OwnCode(f"{told} raised"):
+                results = dict(measure.results())
+            for name, value in results.items():
+                if value is not None and not isinstance(value, Real):
+                    raise ScenarioError(f"{told}: its value {name} is {value!r}, no number or None")
+                found[name] = None if value is None else float(value)
         return found
 
     @property
