@@ -174,7 +174,7 @@ class Measuring:
         for measure in self._measures:
             told = f"measure {type(measure).__name__}"
             with OwnCode(f"{told} raised"):
-                results = dict(measure.results())
+                results: dict[str, Any] = dict(measure.results())
             for name, value in results.items():
                 if value is not None and not isinstance(value, Real):
                     raise ScenarioError(f"{told}: its value {name} is {value!r}, no number or None")
