@@ -13,6 +13,7 @@ import json
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import fields
+from functools import lru_cache
 from typing import Any
 
 from osc2tx.backends.py_trees.emitter import GeneratedModule
@@ -76,6 +77,7 @@ def find(
     return finding
 
 
+@lru_cache(maxsize=1)  # the documents of a file have one module
 def _program(python: str) -> str:
     """Return what a module does: its tree without docstrings."""
     tree = ast.parse(python)

@@ -6,6 +6,7 @@ import json
 import os
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -50,6 +51,12 @@ def in_carla(settings: RunSettings, port: int, **options: Any) -> RunSettings:
     at = {"carla": ("127.0.0.1", port), "carla_load": True, "carla_keep": True}
     world_options = {**at, **options}
     return replace(settings, world="carla", control=control, world_options=world_options)
+
+
+@cache
+def in_the_world(module: Path) -> dict[str, RunResult | str]:
+    """Run the scenarios of a module in the embedded world, once for all comparisons with it."""
+    return run_all(module, settings_for(module))
 
 
 def run_all(module: Path, settings: RunSettings) -> dict[str, RunResult | str]:

@@ -9,7 +9,7 @@ import pytest
 
 from osc2tx_runtime import RunResult
 
-from .runs import GENERATED, happenings, in_carla, modules, run_all, settings_for
+from .runs import GENERATED, happenings, in_carla, in_the_world, modules, run_all, settings_for
 from .stand_in.process import StandInProcess
 
 pytestmark = pytest.mark.slow
@@ -34,9 +34,9 @@ def test_few_are_late() -> None:
 @pytest.mark.parametrize("module", MODULES, ids=lambda path: path.relative_to(GENERATED).stem)
 def test_all_modules_tell_the_same_story(module: Path, towns: StandInProcess) -> None:
     """Verdict, contacts, and all events, begins and ends of actions, in the same order."""
-    settings = settings_for(module)
-    here = run_all(module, settings)
-    there = run_all(module, in_carla(settings, towns.port, control={"": "driven"}))
+    here = in_the_world(module)
+    driven = in_carla(settings_for(module), towns.port, control={"": "driven"})
+    there = run_all(module, driven)
     for name, expected in here.items():
         found = there[name]
         if isinstance(expected, str) or isinstance(found, str):

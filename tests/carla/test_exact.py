@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from .runs import GENERATED, in_carla, lines_of, modules, run_all, settings_for
+from .runs import GENERATED, in_carla, in_the_world, lines_of, modules, run_all, settings_for
 from .stand_in.process import StandInProcess
 
 pytestmark = pytest.mark.slow
@@ -15,8 +15,8 @@ pytestmark = pytest.mark.slow
 @pytest.mark.parametrize("module", modules(), ids=lambda path: path.relative_to(GENERATED).stem)
 def test_all_modules_leave_the_same_trace(module: Path, towns: StandInProcess) -> None:
     """To the byte, after the header; towing included. Errors are the same errors."""
-    settings = settings_for(module)
-    here, there = run_all(module, settings), run_all(module, in_carla(settings, towns.port))
+    here = in_the_world(module)
+    there = run_all(module, in_carla(settings_for(module), towns.port))
     assert {name: lines_of(result) for name, result in there.items()} == {
         name: lines_of(result) for name, result in here.items()
     }

@@ -20,7 +20,7 @@ from osc2tx_runtime.simulators.carla.client_process import ClientProcess
 from osc2tx_runtime.simulators.carla.frames import measurement_from, turning_of
 
 from .conftest import OWN_MAPS
-from .runs import GENERATED, in_carla, lines_of, modules, run_all, settings_for
+from .runs import GENERATED, in_carla, in_the_world, lines_of, modules, run_all, settings_for
 from .stand_in.process import StandInProcess
 from .test_written import commands
 
@@ -33,9 +33,8 @@ Looks = list[dict[int, list[float]]]
 @pytest.mark.parametrize("module", modules(), ids=lambda path: path.relative_to(GENERATED).stem)
 def test_all_modules_leave_the_same_trace(module: Path, towns: StandInProcess) -> None:
     """As with poses that are written, but for the control modes in the header."""
-    settings = settings_for(module)
-    physics = in_carla(settings, towns.port, control={"": "exact-physics"})
-    here, there = run_all(module, settings), run_all(module, physics)
+    physics = in_carla(settings_for(module), towns.port, control={"": "exact-physics"})
+    here, there = in_the_world(module), run_all(module, physics)
     assert {name: lines_of(result) for name, result in there.items()} == {
         name: lines_of(result) for name, result in here.items()
     }

@@ -13,6 +13,7 @@ import sys
 from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
+from hashlib import sha256
 from pathlib import Path
 
 import pytest
@@ -122,31 +123,28 @@ def test_the_quality_checker_has_no_objection(case: Path, tmp_path: Path) -> Non
             assert checker_issues(text, tmp_path) == []
 
 
+def digests() -> str:
+    """Return what is written for each case, as digests."""
+    made = ((case, written(case, "1.3", allow_approx=True)) for case in CASES)
+    texts = (
+        (case.name, repr((each.xml, each.parameters, each.report_json))) for case, each in made
+    )
+    return "".join(f"{name} {sha256(text.encode()).hexdigest()}\n" for name, text in texts)
+
+
 @pytest.mark.slow
 def test_the_same_bytes_in_every_process() -> None:
-    """Neither the seed of hashes nor the folder count; each carries out its own runs."""
-    program = (
-        "import sys, hashlib; from tests.golden.test_xosc import CASES, written\n"
-        "for case in CASES:\n"
-        "    made = written(case, '1.3', allow_approx=True)\n"
-        "    print(case.name, hashlib.sha256(repr((made.xml, made.parameters, made.report_json))"
-        ".encode()).hexdigest())\n"
-    )
-    root = Path(__file__).parents[2]
+    """Neither the seed of hashes nor the folder count; the other one carries out its own runs."""
     environment = {name: text for name, text in os.environ.items() if name != FOLDER}
-    outputs = [
-        subprocess.run(
-            [sys.executable, "-c", program],
-            env={**environment, "PYTHONHASHSEED": seed, "PYTHONPATH": str(root)},
-            cwd=folder,
-            capture_output=True,
-            text=True,
-            check=True,
-        ).stdout
-        for seed, folder in (("0", root), ("1", HERE))
-    ]
-    assert outputs[0] == outputs[1]
-    assert outputs[0].count("\n") == len(CASES)
+    done = subprocess.run(
+        [sys.executable, "-c", "from tests.golden import test_xosc; print(test_xosc.digests())"],
+        env={**environment, "PYTHONHASHSEED": "1", "PYTHONPATH": str(Path(__file__).parents[2])},
+        cwd=HERE,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert done.stdout == f"{digests()}\n"
 
 
 @pytest.mark.parametrize("case", CASES, ids=name)

@@ -1,17 +1,24 @@
-"""The tools over the protocol, asked by its own client."""
+"""The tools over the protocol, asked by its own client.
+
+Its import takes longer than most tests: it is for the process that carries these out.
+"""
 
 from __future__ import annotations
 
 import asyncio
 import sys
 from collections.abc import Callable, Coroutine, Sequence
+from importlib.util import find_spec
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import pytest
 
-pytest.importorskip("mcp")
-from mcp import Client, StdioServerParameters
+if TYPE_CHECKING:
+    from mcp import Client
+
+if find_spec("mcp") is None:
+    pytest.skip("mcp is not installed", allow_module_level=True)
 
 SECONDS = 120
 
@@ -31,11 +38,13 @@ scenario follow:
             emit done
 """
 
-Work = Callable[[Client], Coroutine[Any, Any, Any]]
+Work: TypeAlias = "Callable[[Client], Coroutine[Any, Any, Any]]"
 
 
 def served(folder: Path, work: Work, *options: str) -> Any:
     """Return what becomes of work with a client of a server that runs in a folder."""
+    from mcp import Client, StdioServerParameters
+
     command = ["-m", "osc2tx", "mcp", *options]
     server = StdioServerParameters(command=sys.executable, args=command, cwd=folder)
 

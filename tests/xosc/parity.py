@@ -6,7 +6,6 @@ steps, and in every version.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
@@ -16,6 +15,7 @@ from pathlib import Path
 from types import MappingProxyType
 
 from osc2tx.backends.xosc import XmlScenario
+from osc2tx.diagnostics import Span
 from osc2tx.grading import comparison
 from osc2tx.grading.comparison import Deviation, Recording
 from osc2tx.grading.measuring import PACE
@@ -37,6 +37,7 @@ from osc2tx.xosc.profiles import PROFILES
 from osc2tx_runtime import RunSettings, Scenario
 from osc2tx_shared.map_files import SHIPPED
 from tests.unit.backends.xosc.documents import PLAIN, compiled, generated, graded_documents
+from tests.unit.backends.xosc.kept_runs import without_version
 
 FINE = 0.01  # s
 NEAR = comparison.EXACT
@@ -44,9 +45,6 @@ LONG = 400.0  # s: beyond the end of any document
 KEPT = 16
 """How many runs are kept: those of one source, whose documents often are the same in versions."""
 NOTHING: Mapping[str, str] = MappingProxyType({})
-
-VERSION = re.compile(r' revMinor="\d+"')
-"""In the head of a document."""
 
 WRITTEN = [(name, version) for name, tool in PROFILES.items() for version in tool.versions]
 """The profiles, each with the versions of the documents that it has."""
@@ -111,7 +109,10 @@ def world(
     declared: Mapping[str, float | str] = MappingProxyType({}),
 ) -> Recording:
     """Return what the embedded world does with the values that a document declares."""
-    run = Run(path, name, options, repr(settings), settings)
+    return _world(Run(path, name, options, repr(settings), settings), declared)
+
+
+def _world(run: Run, declared: Mapping[str, float | str]) -> Recording:
     return _outcome(run, _values(run, tuple(declared.items())))
 
 
@@ -144,7 +145,7 @@ def played(
         most: Seconds after which it is left.
     """
     named = map_of(xml, maps)
-    return _played(VERSION.sub("", xml), named, dt, reading, tuple(given.items()), most)
+    return _played(without_version(xml), named, dt, reading, tuple(given.items()), most)
 
 
 @lru_cache(maxsize=KEPT)
@@ -218,11 +219,29 @@ def difference(
         AssertionError: An event has not happened, came too late, or in another order.
     """
     assert document.xml is not None
-    declared, dt = values_of(document), given.settings.dt
-    expected = world(given.path, document.name, given.settings, given.options, declared)
+    run = Run(given.path, document.name, given.options, repr(given.settings), given.settings)
+    origins = tuple(sorted(document.origins.items(), key=lambda origin: origin[0]))
     reading = reading_for(given.xml, is_lazy=is_lazy)
-    found = played(document.xml, dt, given.maps, reading=reading, given=expected.choices)
-    return compare(document, expected, found, dt, patience)
+    xml = without_version(document.xml)
+    deviation = _difference(run, xml, origins, given.maps, reading, patience)
+    assert not deviation.problems
+    return deviation
+
+
+@lru_cache(maxsize=KEPT)
+def _difference(
+    run: Run,
+    xml: str,
+    origins: tuple[tuple[str, Span], ...],
+    maps: tuple[Path, ...],
+    reading: Reading,
+    patience: float,
+) -> Deviation:
+    """Return how far a document whose version is left out is from the world."""
+    root, dt = read(xml), run.settings.dt
+    expected = _world(run, declared_values(root, {}))
+    found = played(xml, dt, maps, reading=reading, given=expected.choices)
+    return comparison.compare(root, dict(origins), expected, found, dt, patience)
 
 
 def bound_of(document: XmlScenario) -> float | None:

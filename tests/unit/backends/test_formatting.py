@@ -1,5 +1,7 @@
 """Of a module's statements black is asked for those that it may write otherwise, and no others."""
 
+import re
+import tomllib
 from collections.abc import Callable
 from pathlib import Path
 
@@ -52,13 +54,15 @@ def test_as_black_does_it(name: str, asked: list[str]) -> None:
     assert formatted == black.format_str(text, mode=MODE)
 
 
-@pytest.mark.slow
-def test_what_is_committed_is_as_black_has_it() -> None:
+def test_lint_asks_black_for_what_is_committed() -> None:
+    """`make lint` looks at all modules; that takes as long as many tests."""
     modules = [*ROOT.glob("generated/**/*.py"), *ROOT.glob("tests/golden/py_trees/*/expected/*.py")]
     assert len(modules) > 100
-    for module in modules:
-        text = module.read_text(encoding="utf-8")
-        assert black.format_str(text, mode=MODE) == text, module
+    settings = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["black"]
+    assert settings.pop("line-length") == LINE_LENGTH
+    excluded = re.compile(settings.pop("extend-exclude"))
+    assert settings == {}
+    assert not [path for path in modules if excluded.search(path.as_posix())]
 
 
 def test_what_is_no_python_is_a_bug() -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from functools import cache
 from typing import Any, TypeAlias
 
 from osc2tx_runtime import units
@@ -67,14 +68,17 @@ def unit_named(unit: AnyUnit) -> Unit:
     Raises:
         ValueError: There is no unit of this name.
     """
-    if isinstance(unit, Unit):
-        return unit
-    if unit not in _TYPES:
-        raise ValueError(f"the library has no unit {unit}")
-    meaning: Any = getattr(units, unit)
+    return unit if isinstance(unit, Unit) else _unit_of_library(unit)
+
+
+@cache  # values are declared anew for each draw
+def _unit_of_library(name: str) -> Unit:
+    if name not in _TYPES:
+        raise ValueError(f"the library has no unit {name}")
+    meaning: Any = getattr(units, name)
     if callable(meaning):
-        return Unit(unit, meaning(1.0) - meaning(0.0), meaning(0.0))
-    return Unit(unit, meaning)
+        return Unit(name, meaning(1.0) - meaning(0.0), meaning(0.0))
+    return Unit(name, meaning)
 
 
 def read_value(name: str, text: str, unit: Unit | None) -> float:

@@ -1,10 +1,16 @@
-"""The parser of `scenariogeneration`, by which many read OpenSCENARIO XML in Python."""
+"""The parser of `scenariogeneration`, by which many read OpenSCENARIO XML in Python.
+
+Its import takes longer than most tests: it is for the process that carries these out.
+"""
 
 import warnings
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pytest
-from scenariogeneration.xosc import NotAValidElement, ParseOpenScenario, xosc_reader
+
+if TYPE_CHECKING:
+    from scenariogeneration.xosc import ParseOpenScenario
 
 ROOT = Path(__file__).parents[4]
 WRITTEN = [
@@ -18,10 +24,12 @@ UNKNOWN = "<RelativeClearanceCondition"
 @pytest.fixture(autouse=True)
 def _is_valid(monkeypatch: pytest.MonkeyPatch) -> None:
     """Schemas are tested elsewhere, by a library that takes much less time."""
-    monkeypatch.setattr(xosc_reader, "validate_schema", lambda _: True)
+    monkeypatch.setattr("scenariogeneration.xosc.xosc_reader.validate_schema", lambda _: True)
 
 
-def parsed(path: Path) -> ParseOpenScenario:
+def parsed(path: Path) -> "ParseOpenScenario":
+    from scenariogeneration.xosc import ParseOpenScenario
+
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         return ParseOpenScenario(str(path))
@@ -29,6 +37,8 @@ def parsed(path: Path) -> ParseOpenScenario:
 
 def loads(path: Path) -> bool:
     """Whether it has words for a document, and then loads all of its actors."""
+    from scenariogeneration.xosc import NotAValidElement
+
     text = path.read_text(encoding="utf-8")
     if UNKNOWN in text:
         with pytest.raises(NotAValidElement):
