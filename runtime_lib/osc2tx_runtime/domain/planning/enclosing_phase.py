@@ -6,13 +6,14 @@ end` has to hold then. Members with a goal have at most 8 s.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from osc2tx_runtime.domain.modifiers import Modifier
 from osc2tx_runtime.language.actions.base_action import BaseAction
 from osc2tx_runtime.language.tree import Parallel, Serial, Until
-from osc2tx_runtime.language.tree.members import is_instant, is_service
+from osc2tx_runtime.language.tree.members import is_instant, is_open, is_service, length_of
 from osc2tx_shared.rules.endings import (
     Enclosing,
     Ending,
@@ -79,30 +80,45 @@ def _ends_with(parent: Behaviour, node: Behaviour) -> Enclosing:
     return "same end" if is_last else "other"
 
 
-def limit_of(action: BaseAction) -> DurationLimits | None:
-    """The duration around an action in which it has to reach its goal.
+def most_steps(action: BaseAction) -> float | None:
+    """The steps that a duration around an action leaves it to reach its goal; may be infinite.
+
+    Members after it in a `serial` need their lengths; open-ended ones have a step, which is the
+    least that they can take.
 
     Args:
         action: The action.
 
     Returns:
-        None if it has its own duration, or if further members have to follow before the end.
+        None if it has its own duration, or if other members have to follow before the end.
     """
     if action.registered.ends != "goal" or action.duration is not None:
         return None
     node: Behaviour = action
+    following = 0.0
     while isinstance(node.parent, Serial | Parallel):
         parent = node.parent
         if isinstance(parent, Serial):
             after = parent.children[parent.children.index(node) + 1 :]
-            if not all(map(is_instant, after)):
+            following += sum(map(_least_steps, after))
+            if math.isinf(following):
                 return None
         elif not _is_plain(parent):
             return None
         if parent.limits is not None:
-            return parent.limits
+            return parent.limits.most_left - following
         node = parent
     return None
+
+
+def _least_steps(node: Behaviour) -> float:
+    """The steps that a member needs; infinite if only the run shows them."""
+    if is_instant(node):
+        return 0.0
+    if isinstance(node, BaseAction) and _ending_of(node) == "open":
+        return math.inf if getattr(node, "has_goal", False) else 1.0
+    length = None if is_open(node) else length_of(node)
+    return math.inf if length is None else float(length)
 
 
 def _is_plain(parallel: Parallel) -> bool:

@@ -13,7 +13,7 @@ from osc2tx_runtime.domain.modifiers.base import settled
 from osc2tx_runtime.domain.modifiers.calls import commanding
 from osc2tx_runtime.domain.paths.path_curves import PathError
 from osc2tx_runtime.domain.placing.pose_resolution import one_of_kind
-from osc2tx_runtime.domain.planning.enclosing_phase import limit_of
+from osc2tx_runtime.domain.planning.enclosing_phase import most_steps
 from osc2tx_runtime.enums import SideLeftRight
 from osc2tx_runtime.errors import PlacementError, ScenarioError
 from osc2tx_runtime.language.actions.action import Action, ActionOptions
@@ -276,10 +276,10 @@ class ModifiedMotion(MotionAction):
 
     def time_frame(self) -> Duration | None:
         """The time (s) for the action: its duration, or the rest of an enclosing one."""
-        limit = None if self.context.first_come else limit_of(self)
-        if limit is None or math.isinf(limit.most_left):
+        steps = None if self.context.first_come else most_steps(self)
+        if steps is None or math.isinf(steps):
             return self.duration
-        return 0.0, limit.most_left * self.context.dt
+        return 0.0, steps * self.context.dt
 
     @property
     def end_is_known(self) -> bool:

@@ -56,7 +56,9 @@ class Lane(MovementModifier):
     shaped_by = AnyLateralShape
     rules = (
         at_most_one("same_as", "side_of", "from_"),
+        at_most_one("same_as", "lane"),
         at_least_one("side", when=["side_of"]),
+        at_least_one("side_of", when=["side"]),
         at_least(1, "lane", unless=["side_of"]),  # the outermost one is 1
         at_least(0, "lane", when=["side_of"]),
     )
