@@ -22,13 +22,20 @@ class Filling:
 
 
 @dataclass(frozen=True, slots=True)
+class AtLeast:
+    """A composition with open-ended members, which take any time beyond that of the others."""
+
+    terms: Terms
+
+
+@dataclass(frozen=True, slots=True)
 class Either:
     """A member that has one of several lengths: of the alternatives of a `one_of`."""
 
     options: tuple[Terms, ...]
 
 
-Length: TypeAlias = Known | Either | Filling | None
+Length: TypeAlias = Known | AtLeast | Either | Filling | None
 """Facts about the length of a member; `None` if only the run decides."""
 
 INSTANT = Known(())
@@ -47,6 +54,8 @@ def choice(options: Sequence[Terms]) -> Length:
 def alternatives(lengths: Sequence[Length]) -> Length:
     """Return the length of a `one_of`, given those of its members."""
     found: list[Terms] = []
+    if OPEN in lengths and all(each is OPEN or isinstance(each, Known) for each in lengths):
+        return AtLeast(())
     for length in lengths:
         if not isinstance(length, Known | Either):
             return None

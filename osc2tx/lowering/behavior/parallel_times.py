@@ -9,7 +9,15 @@ from math import prod
 from osc2tx import ir
 from osc2tx.lowering.behavior.durations import is_elastic, with_elastic
 from osc2tx.lowering.behavior.invoked_times import MOST_CHOICES
-from osc2tx.lowering.behavior.member_lengths import FREE, LEAST, OPEN, Either, Known, Length
+from osc2tx.lowering.behavior.member_lengths import (
+    FREE,
+    LEAST,
+    OPEN,
+    AtLeast,
+    Either,
+    Known,
+    Length,
+)
 from osc2tx.lowering.behavior.overlap_equations import OverlapTimes
 from osc2tx.lowering.behavior.time_equations import TimeEquations
 from osc2tx.lowering.behavior.time_expressions import (
@@ -145,7 +153,9 @@ class ParallelTimes:
             for length in known:
                 if whole is not None:
                     self._equations.bound(length.terms, whole)
-            return node, None
+            are_open = all(lengths[i] is OPEN or isinstance(lengths[i], Known) for i in lasting)
+            is_open = whole is None and known and are_open
+            return node, AtLeast(self._longest(known).terms) if is_open else None
         if whole is None:
             return node, self._longest(known) if known and not free else None
         if not is_range(whole) and (len(free) == 1 or not is_filled(self._equations, known, whole)):

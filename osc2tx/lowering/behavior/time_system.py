@@ -25,6 +25,7 @@ from osc2tx.lowering.behavior.member_lengths import (
     INSTANT,
     LEAST,
     OPEN,
+    AtLeast,
     Either,
     Filling,
     Known,
@@ -192,6 +193,8 @@ class TimeSystem:
             if node.duration is not None:
                 self._equations.relate(terms, node.duration)
             return node, Known(terms)
+        if (stretched := self._stretched(node, lengths)) is not None:
+            return stretched
         if lengths[-1] is OPEN and node.duration is not None:
             self._equations.bound(terms, node.duration)  # the last member takes the rest
         whole = node.duration
@@ -209,6 +212,40 @@ class TimeSystem:
         if are_free and is_range(node.duration):
             return node, None  # their own lengths may lie in it
         return self._filled(node, filling, terms), None
+
+    def _stretched(
+        self, node: ir.Serial, lengths: Sequence[Length]
+    ) -> tuple[ir.Serial, AtLeast | None] | None:
+        """Return a serial with a composition of any length, the last of which takes the rest.
+
+        Others before it last as long as their bounded members. Without a duration the serial is
+        itself of any length.
+        """
+        whole = node.duration
+        found = [i for i, length in enumerate(lengths) if isinstance(length, AtLeast)]
+        if not found or is_range(whole):
+            return None
+        others: list[ir.Expression] = []
+        for index, length in enumerate(lengths):
+            is_timed = isinstance(length, Known) or (isinstance(length, AtLeast) and length.terms)
+            if index != found[-1] and not is_timed:
+                return None
+            if index != found[-1] and isinstance(length, Known | AtLeast):
+                others += length.terms
+        least = lengths[found[-1]]
+        assert isinstance(least, AtLeast)
+        if whole is None:
+            return node, AtLeast((*others, *least.terms))
+        if not self._equations.bound((*others, *least.terms), whole):
+            return None
+        rest = rest_of(whole, tuple(others))
+        if is_filled(self._equations, [Known(least.terms)], rest):
+            return None
+        member = node.members[found[-1]]
+        assert isinstance(member, ir.CompositionBase)
+        stretched = self._member(replace(member, duration=rest), is_bounded=True)[0]
+        before, after = node.members[: found[-1]], node.members[found[-1] + 1 :]
+        return replace(node, members=(*before, stretched, *after)), None
 
     def _given_the_rest(
         self, node: ir.Serial, lengths: Sequence[Length], others: Terms

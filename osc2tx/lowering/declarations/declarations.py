@@ -52,14 +52,24 @@ class DeclarationLowering:
             self._members |= symbol.members
 
     def lower_methods(self) -> tuple[ir.Method, ...]:
-        """Return its own methods; the last declaration of a name is the one that counts."""
+        """Return its own methods; the last declaration of a name is the one that counts.
+
+        External ones that nothing calls are left out: no run needs their functions.
+        """
         declared = [s for s in self._statements if isinstance(s, ast.MethodDeclaration)]
         lowered = []
         for name, node in {node.name.text: node for node in declared}.items():
             symbol = self._members.get(name)
-            if isinstance(symbol, sym.MethodSymbol):
+            if isinstance(symbol, sym.MethodSymbol) and not self._is_idle(symbol, node):
                 lowered.append(lower_method(self._ctx, symbol, statement_comments(node)))
         return present(lowered)
+
+    def _is_idle(self, method: sym.MethodSymbol, node: ast.MethodDeclaration) -> bool:
+        """Whether a method is external, and nothing in the program calls one of its name."""
+        if not isinstance(node.body, ast.ExternalBody):
+            return False
+        mentioned = self._ctx.model.references.values()
+        return not any(isinstance(m, sym.MethodSymbol) and m.name == method.name for m in mentioned)
 
     def lower_type_methods(self) -> tuple[ir.Method, ...]:
         """Return the methods of types that are called so far, and those that they call.

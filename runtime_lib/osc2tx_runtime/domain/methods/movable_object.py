@@ -242,9 +242,9 @@ class MovableObjectMethods:
 
     def remain_stationary(
         self,
-        label: str | TurnModifier | StartModifier | PhysicalMovement | None = None,
+        label: str | TurnModifier | StartModifier | KeepPosition | PhysicalMovement | None = None,
         /,
-        *modifiers: TurnModifier | StartModifier | PhysicalMovement,
+        *modifiers: TurnModifier | StartModifier | KeepPosition | PhysicalMovement,
         duration: Duration | None = None,
     ) -> Behaviour:
         """Remain at standstill (§8.8.2.10).

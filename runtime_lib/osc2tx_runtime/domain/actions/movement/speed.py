@@ -4,7 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, ClassVar, Unpack
 
-from osc2tx_runtime.domain.modifiers import Modifier, PhysicalMovement, Value, value_of
+from osc2tx_runtime.domain.modifiers import (
+    KeepPosition,
+    Modifier,
+    PhysicalMovement,
+    Value,
+    value_of,
+)
 from osc2tx_runtime.domain.modifiers.groups import PLACES, SIDE_FREE
 from osc2tx_runtime.domain.planning.longitudinal.longitudinal_planning import (
     jump_to,
@@ -126,7 +132,7 @@ class RemainStationary(ModifiableAction):
     modifier states the position, the actor has to be there at the start.
     """
 
-    accepts: ClassVar[tuple[type, ...]] = (*PLACES, PhysicalMovement)
+    accepts: ClassVar[tuple[type, ...]] = (*PLACES, KeepPosition, PhysicalMovement)
     stands = True
 
     def __init__(
