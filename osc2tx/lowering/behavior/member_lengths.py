@@ -22,7 +22,7 @@ class Filling:
 
 
 @dataclass(frozen=True, slots=True)
-class AtLeast:
+class Stretchable:
     """A composition with open-ended members, which take any time beyond that of the others."""
 
     terms: Terms
@@ -35,7 +35,7 @@ class Either:
     options: tuple[Terms, ...]
 
 
-Length: TypeAlias = Known | AtLeast | Either | Filling | None
+Length: TypeAlias = Known | Stretchable | Either | Filling | None
 """Facts about the length of a member; `None` if only the run decides."""
 
 INSTANT = Known(())
@@ -55,7 +55,7 @@ def alternatives(lengths: Sequence[Length]) -> Length:
     """Return the length of a `one_of`, given those of its members."""
     found: list[Terms] = []
     if OPEN in lengths and all(each is OPEN or isinstance(each, Known) for each in lengths):
-        return AtLeast(())
+        return Stretchable(())
     for length in lengths:
         if not isinstance(length, Known | Either):
             return None

@@ -13,10 +13,10 @@ from osc2tx.lowering.behavior.member_lengths import (
     FREE,
     LEAST,
     OPEN,
-    AtLeast,
     Either,
     Known,
     Length,
+    Stretchable,
 )
 from osc2tx.lowering.behavior.overlap_equations import OverlapTimes
 from osc2tx.lowering.behavior.time_equations import TimeEquations
@@ -155,7 +155,7 @@ class ParallelTimes:
                     self._equations.bound(length.terms, whole)
             are_open = all(lengths[i] is OPEN or isinstance(lengths[i], Known) for i in lasting)
             is_open = whole is None and known and are_open
-            return node, AtLeast(self._longest(known).terms) if is_open else None
+            return node, Stretchable(self._longest(known).terms) if is_open else None
         if whole is None:
             return node, self._longest(known) if known and not free else None
         if not is_range(whole) and (len(free) == 1 or not is_filled(self._equations, known, whole)):

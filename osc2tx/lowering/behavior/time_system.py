@@ -25,11 +25,11 @@ from osc2tx.lowering.behavior.member_lengths import (
     INSTANT,
     LEAST,
     OPEN,
-    AtLeast,
     Either,
     Filling,
     Known,
     Length,
+    Stretchable,
     alternatives,
     choice,
 )
@@ -215,27 +215,29 @@ class TimeSystem:
 
     def _stretched(
         self, node: ir.Serial, lengths: Sequence[Length]
-    ) -> tuple[ir.Serial, AtLeast | None] | None:
+    ) -> tuple[ir.Serial, Stretchable | None] | None:
         """Return a serial with a composition of any length, the last of which takes the rest.
 
         Others before it last as long as their bounded members. Without a duration the serial is
         itself of any length.
         """
         whole = node.duration
-        found = [i for i, length in enumerate(lengths) if isinstance(length, AtLeast)]
+        found = [i for i, length in enumerate(lengths) if isinstance(length, Stretchable)]
         if not found or is_range(whole):
             return None
         others: list[ir.Expression] = []
         for index, length in enumerate(lengths):
-            is_timed = isinstance(length, Known) or (isinstance(length, AtLeast) and length.terms)
+            is_timed = isinstance(length, Known) or (
+                isinstance(length, Stretchable) and length.terms
+            )
             if index != found[-1] and not is_timed:
                 return None
-            if index != found[-1] and isinstance(length, Known | AtLeast):
+            if index != found[-1] and isinstance(length, Known | Stretchable):
                 others += length.terms
         least = lengths[found[-1]]
-        assert isinstance(least, AtLeast)
+        assert isinstance(least, Stretchable)
         if whole is None:
-            return node, AtLeast((*others, *least.terms))
+            return node, Stretchable((*others, *least.terms))
         if not self._equations.bound((*others, *least.terms), whole):
             return None
         rest = rest_of(whole, tuple(others))
