@@ -178,6 +178,20 @@ def _line_start_above(b: Builder, block: Tree) -> int:
     return b.starts[max(index, 0)]
 
 
+def _same_column(header: Span) -> str | None:
+    """Return the help for a header whose lines are indented by other characters than it is."""
+    source, number = header.source, header.line
+    if number == len(source.line_starts):
+        return None
+    above, below = source.line_text(number), source.line_text(number + 1)
+    if "\t" not in above[: -len(above.lstrip())] + below[: -len(below.lstrip())]:
+        return None
+    return (
+        f"a tab reaches to the next multiple of 8 columns, so that line {number + 1} is not"
+        f" indented more than line {number}: indent by blanks alone"
+    )
+
+
 def build_body(b: Builder, tree: Tree, place: Place, what: str) -> tuple[Any, ...]:
     """Build the block after a header `…:`; the colon and the block need each other."""
     block = check_body(b, tree, what)
@@ -197,7 +211,7 @@ def check_body(b: Builder, tree: Tree, what: str, *, optional: bool = True) -> T
     elif block is None and colon:
         span = b.span(colon[0], colon[0])
         without = leave_out(span, "indent its lines, or leave the `:` out", is_safe=False)
-        help_ = without if optional else "indent its lines"
+        help_ = _same_column(span) or (without if optional else "indent its lines")
         b.report("OSC112", span, f"{what} has no lines", help_)
     elif block is None and not optional:
         end = Span(b.source, b.ends[newline - 1], b.ends[newline - 1])
