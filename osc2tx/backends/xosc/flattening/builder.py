@@ -200,7 +200,7 @@ class StoryboardBuilder:
 
     def after(self, trigger: ir.Trigger, start: Flow) -> Flow:
         """Return when a trigger occurs that is looked at from a flow on."""
-        flow = start
+        flow, trigger = start, self.events.as_used(trigger)
         match trigger.event:
             case None:
                 pass

@@ -103,13 +103,15 @@ def react(builder: StoryboardBuilder, node: ir.On, start: Flow) -> Flow:
         if not isinstance(reaction, ir.Emit):
             raise Inexpressible("only `emit` can react", reaction.span)
         actions += [*set_parameters(ctx, reaction), events.setting(reaction.event.name)]
-    condition = node.trigger.condition
-    if isinstance(condition, ir.Every) and node.trigger.event is None:
+    trigger = events.as_used(node.trigger)
+    condition = trigger.condition
+    if isinstance(condition, ir.Every) and trigger.event is None:
         react_periodically(builder, node, condition, builder.latched(start, "on"), tuple(actions))
         return NEVER
-    if node.trigger.event is None and not isinstance(condition, ir.Edge):
-        raise Inexpressible("only an event or an edge can be reacted to")
-    once = not events.occurrences.may_recur(node.trigger)
+    is_time = isinstance(condition, ir.Elapsed) and trigger.event is None
+    if trigger.event is None and not is_time and not isinstance(condition, ir.Edge):
+        raise Inexpressible("only an event, an edge or a time can be reacted to")
+    once = is_time or not events.occurrences.may_recur(trigger)
     occurs = builder.after(node.trigger, start)
     if not once:
         occurs = _each_time(occurs, start)

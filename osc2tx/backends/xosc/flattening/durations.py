@@ -19,6 +19,8 @@ from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.flattening.builder import VERDICT, StoryboardBuilder, construct_of
 from osc2tx.backends.xosc.flattening.failures import Role, fail_scenario
 from osc2tx.backends.xosc.flattening.lengths import (
+    SLACK,
+    fitting,
     least_length,
     length_at_least,
     length_of,
@@ -70,8 +72,7 @@ def end_within_duration(
         if may_end_after(builder.ctx, content_of_node, low):
             return start.later(low) | until
     if isinstance(node, ir.OneOf):
-        reason = "the member that ends within the duration wins, which only the run shows"
-        raise Inexpressible(reason, node.duration.span)
+        return _first_in_time(builder, node, content) | until
     content = content if since is None else since
     if length is not None and length <= high and (fills or low <= length):
         return (start.later(low) if length < low else content) | until
@@ -95,6 +96,24 @@ def end_within_duration(
         builder.keep(filled, start.later(low))
         failed = failed | over & builder.is_unset(filled)
     return _failing(builder, node, over & start.later(low), failed, role) | until
+
+
+def _first_in_time(builder: StoryboardBuilder, node: ir.OneOf, content: Flow) -> Flow:
+    """Return when a race within a duration is over, whose content is that of its fitting members.
+
+    Raises:
+        Inexpressible: Only the run shows which of them end within it, or none does.
+    """
+    assert node.duration is not None, "it is written"
+    racing = fitting(builder.ctx, node)
+    lengths = [length_of(builder.ctx, member) for member in racing.members]
+    if None in lengths or any(map(ir.is_open, racing.members)):
+        reason = "the member that ends within the duration wins, which only the run shows"
+        raise Inexpressible(reason, node.duration.span)
+    low, high = builder.ctx.values.bounds(node.duration)
+    if not any(low - SLACK <= length <= high + SLACK for length in lengths if length is not None):
+        raise Inexpressible("none of its members takes it: every run fails", node.duration.span)
+    return content
 
 
 def _failing(

@@ -59,6 +59,18 @@ class EventTable:
                 return self.of_label(label, moment, is_early=is_early)
         raise Inexpressible(f"`{trigger.span.text}` has no counterpart here", trigger.span)
 
+    def as_used(self, trigger: ir.Trigger) -> ir.Trigger:
+        """Return a trigger where it is used: times that an event declares count from there."""
+        meant, names = trigger, set[str]()
+        while isinstance(meant.event, ir.EventRef) and meant.condition is None:
+            declared = self.occurrences.declared[meant.event.name].trigger
+            if declared is None or meant.event.name in names:
+                return trigger
+            names.add(meant.event.name)
+            meant = declared
+        counts = isinstance(meant.condition, ir.Elapsed | ir.Every)
+        return meant if meant.event is None and counts else trigger
+
     def of_label(self, label: str, moment: ir.Moment, *, is_early: bool) -> Flow:
         """Return the tests for the start or the end of a member."""
         return self._is_set(self._marks[label, moment], is_early=is_early)

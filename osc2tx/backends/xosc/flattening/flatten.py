@@ -19,6 +19,7 @@ from osc2tx.backends.xosc.flattening.directives import call, emit, finish, react
 from osc2tx.backends.xosc.flattening.durations import end_within_duration
 from osc2tx.backends.xosc.flattening.failures import Role
 from osc2tx.backends.xosc.flattening.leaves import end_open_actions, invoke
+from osc2tx.backends.xosc.flattening.lengths import fitting
 from osc2tx.backends.xosc.flattening.parallel_overlaps import (
     report_conflicts,
     starts_of,
@@ -207,6 +208,7 @@ class Flattener:
                 instead="alternatives that all control the same of one actor are exact"
             )
             raise Inexpressible(reason, node.span, drawing)
+        node = fitting(self._ctx, node)
         if len(node.members) > 1:
             start = self._builder.latched(start, self._builder.name_of(node))
         is_race = len(node.members) > 1

@@ -8,6 +8,9 @@ from osc2tx import ir
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.values.constants import Bounds
 from osc2tx.losses.entries import Inexpressible
+from osc2tx_shared.classes import replace
+
+SLACK = 1e-9  # s
 
 
 def length_of(ctx: Context, node: ir.Behavior) -> float | None:
@@ -66,6 +69,20 @@ def length_at_least(ctx: Context, node: ir.Behavior) -> float:
         case ir.OneOf(members=members, until=()):
             return min(length_at_least(ctx, member) for member in members)
     return 0.0
+
+
+def fitting(ctx: Context, node: ir.OneOf) -> ir.OneOf:
+    """Return a race without the members that cannot take its duration: no run starts them."""
+    if node.duration is None or ctx.module.dialect == "carla":
+        return node
+    low, high = ctx.values.bounds(node.duration)
+    lengths = [None if ir.is_open(each) else length_of(ctx, each) for each in node.members]
+    members = tuple(
+        member
+        for member, length in zip(node.members, lengths, strict=True)
+        if length is None or low - SLACK <= length <= high + SLACK
+    )
+    return replace(node, members=members) if 0 < len(members) < len(node.members) else node
 
 
 def may_end_after(ctx: Context, node: ir.Behavior, time: float) -> bool:
