@@ -43,12 +43,6 @@ def test_ruff_has_nothing_to_say_with_its_own_defaults() -> None:
 
 
 @pytest.mark.slow
-def test_they_pass_strict_mypy() -> None:
-    result = tool("mypy", "--strict", *map(str, MODULES))
-    assert result.returncode == 0, result.stdout
-
-
-@pytest.mark.slow
 @pytest.mark.parametrize("module", OWN_MAPS, ids=lambda path: path.stem)
 def test_they_run_by_themselves(module: Path, tmp_path: Path) -> None:
     trace = tmp_path / "trace.jsonl"
