@@ -284,7 +284,8 @@ class TimeSystem:
         assert node.duration is not None
         fitting = [each for each in options if self._equations.fits(each, node.duration)]
         if not fitting:
-            return None  # the run decides
+            self._equations.is_impossible(options[-1], node.duration)
+            return None
         if len(fitting) == 1:
             self._equations.relate(fitting[0], node.duration)
         elif self._equations.is_variable(tuple(t for each in fitting for t in each)) or (
