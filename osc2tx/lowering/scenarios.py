@@ -171,7 +171,7 @@ class _ProgramLowering:
     ) -> tuple[ir.AbstractScenario | None, Sequence[Composed]]:
         ctx = (self._ctx.quiet() if is_inherited_only else self._ctx).of_scenario(
             frozenset(name for each in lineage_of(scenario) for name in each.members),
-            self._ctx.model.known_to(each.span.source.name for each in _statements(scenario)),
+            self._known_to(scenario),
             same_actors(self._ctx.program.analysis.types[scenario]),
         )
 
@@ -189,6 +189,16 @@ class _ProgramLowering:
         self._by_key.update((scenario_key(each), each) for each in ctx.state.invoked)
         is_refused = is_inherited_only and ctx.sink.has_errors  # its own file reports it
         return None if is_refused else made, ctx.state.invoked
+
+    def _known_to(self, scenario: Composed) -> frozenset[str]:
+        """Return the names of the files whose reads of fields concern the objects of a scenario.
+
+        Files that invoke it read them as well: `x.about.limit`.
+        """
+        model = self._ctx.model
+        if scenario in model.callees:
+            return frozenset(file.span.source.name for file in model.files)
+        return model.known_to(each.span.source.name for each in _statements(scenario))
 
 
 def _user_base(scenario: Composed) -> tuple[Composed, ...]:

@@ -12,6 +12,7 @@ from osc2tx.compilation.driver import Memory
 from osc2tx.compilation.needed_modules import sibling_modules
 from osc2tx.config import ConfigFiles, GivenOptions
 from osc2tx.module_loading import scenarios_of_module
+from osc2tx_runtime import ScenarioError
 from tests.end_to_end.importing_files import classes_in, compiled, trace_of, write
 
 HEAD = "import osc.standard.all\nnamespace null use std, stdtypes\n"
@@ -249,6 +250,21 @@ scenario open inherits straight:
     assert 'self.required("about.id", str)' in compilation.module.python
     with scenarios_of_module(compilation.module, sibling_modules(compilation)) as scenarios:
         assert trace_of(scenarios["cruise"])
+
+
+def test_a_field_that_invoking_files_read_is_required(tmp_path: Path) -> None:
+    base = "struct case:\n    v: speed\n\nscenario straight inherits town:\n    about: case\n"
+    base += "    do go: ego.drive(duration: 1s)\n"
+    top = "\nscenario top:\n    other: vehicle\n    do serial:\n        x: straight()\n"
+    top += "        other.drive(duration: 1s) with:\n            speed(x.about.v)\n"
+    write(tmp_path, lib__town=HEAD + TOWN + "\n" + base)
+    write(tmp_path, a=f'import "lib/town.osc"\n{HEAD}{top}')
+    compilation = compiled(tmp_path / "a.osc")
+    assert compilation.module is not None
+    siblings = sibling_modules(compilation)
+    refused = pytest.raises(ScenarioError, match=r"leaves x\.about\.v open")
+    with scenarios_of_module(compilation.module, siblings) as scenarios, refused:
+        trace_of(scenarios["top"])
 
 
 def test_a_repository_runs_as_whole_classes_do(tmp_path: Path) -> None:
