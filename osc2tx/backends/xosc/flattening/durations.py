@@ -29,6 +29,7 @@ from osc2tx.backends.xosc.flattening.lengths import (
 from osc2tx.backends.xosc.flattening.until_ends import end_at_until, end_within
 from osc2tx.losses.entries import Inexpressible, Remedy
 from osc2tx_shared.classes import replace
+from osc2tx_shared.steps import DEFAULT_STEP
 
 Timed: TypeAlias = ir.Composition | ir.InvokeScenario
 
@@ -160,6 +161,7 @@ def time_frame(ctx: Context, node: ir.Invoke) -> tuple[float | None, float | Non
     if ctx.module.dialect == "carla" or (not ends and node.duration is not None):
         return None, None
     passed: float | None = 0.0
+    following: float | None = 0.0  # what members after it need at least
     for parent, before, after in ir.around(ctx.scope.scenario.body, node):
         for member in before:
             length = length_of(ctx, member)
@@ -167,17 +169,18 @@ def time_frame(ctx: Context, node: ir.Invoke) -> tuple[float | None, float | Non
         low, high = (0.0, inf) if parent.duration is None else ctx.values.bounds(parent.duration)
         is_planned = not after and ir.ends_with_open(parent, is_fixed=low == high)
         if not ends:
-            is_planned = (
-                passed is not None and all(map(ir.is_instant, after)) and _begins_with(parent)
-            )
+            for member in after:
+                least = _needs_at_least(ctx, member)
+                following = None if following is None or least is None else following + least
+            is_planned = passed is not None and following is not None and _begins_with(parent)
         if not is_planned:
             break
         if parent.duration is None and parent.until:
             break
         if parent.duration is None:
             continue
-        if passed is not None:
-            left = max(0.0, high - passed)
+        if passed is not None and following is not None:
+            left = max(0.0, high - passed - following)
             return (left if low == high else None, None) if ends else (None, left)
         ending = next((call for call in node.modifiers if call.at == "end"), None)
         if ending is None or low != high:
@@ -185,6 +188,16 @@ def time_frame(ctx: Context, node: ir.Invoke) -> tuple[float | None, float | Non
         reason = f"only the run shows how much is left of the {low:g} s when it starts"
         raise Inexpressible(reason, ending.span)
     return None, None
+
+
+def _needs_at_least(ctx: Context, node: ir.Behavior) -> float | None:
+    """Return the time (s) that a member needs, an open-ended action a step of the world.
+
+    `None`: only the run shows it.
+    """
+    if isinstance(node, ir.Invoke) and ir.is_open(node):
+        return None if ir.goals_of(node) else DEFAULT_STEP
+    return length_of(ctx, node)
 
 
 def _begins_with(node: ir.Composition) -> bool:
