@@ -89,6 +89,7 @@ class Entry:
         bound: How far an approximation is from the original: metres, or in words what differs.
         remedy: What could express it.
         is_open: It is not exact if the played document deviates; else it is.
+        note: What is then worth knowing about the exact one.
     """
 
     construct: str
@@ -98,6 +99,7 @@ class Entry:
     bound: Bound = ""
     remedy: Remedy = NOTHING
     is_open: bool = False
+    note: str = ""
 
     @property
     def code(self) -> str:

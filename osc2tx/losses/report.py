@@ -55,10 +55,23 @@ class LossReport:
         remedy = remedy.with_tool(self._tool)
         self._add(Entry(construct, span, Grade.APPROXIMATED, reason, bound, remedy))
 
-    def doubt(self, construct: str, span: Span, reason: str, remedy: Remedy = NOTHING) -> None:
-        """Note why a construct may differ: whether it does, and how far, is measured."""
-        remedy = remedy.with_tool(self._tool)
-        entry = Entry(construct, span, Grade.APPROXIMATED, reason, UNMEASURED, remedy, is_open=True)
+    def doubt(
+        self, construct: str, span: Span, reason: str, remedy: Remedy = NOTHING, note: str = ""
+    ) -> None:
+        """Note why a construct may differ: whether it does, and how far, is measured.
+
+        The note stays with one that does not.
+        """
+        entry = Entry(
+            construct,
+            span,
+            Grade.APPROXIMATED,
+            reason,
+            UNMEASURED,
+            remedy.with_tool(self._tool),
+            is_open=True,
+            note=note,
+        )
         self._add(entry)
 
     def cannot(self, construct: str, span: Span, reason: str, remedy: Remedy = NOTHING) -> None:
@@ -103,7 +116,7 @@ class LossReport:
             if each in causes:
                 same.append(replace(each, bound="", is_open=False))
             elif not same:
-                same.append(Entry(each.construct, each.span, Grade.EXACT))
+                same.append(Entry(each.construct, each.span, Grade.EXACT, each.note))
         return bool(causes)
 
     def _bound_by(self, text: str) -> None:

@@ -149,9 +149,9 @@ class Arguments:
         """Report that the action or modifier means nearly the same in the XML."""
         self._ctx.report.approximate(self.construct, self.span, reason, bound, remedy)
 
-    def doubt(self, reason: str, remedy: Remedy = NOTHING) -> None:
+    def doubt(self, reason: str, remedy: Remedy = NOTHING, note: str = "") -> None:
         """Report why it may differ in the XML: a played document shows whether it does."""
-        self._ctx.report.doubt(self.construct, self.span, reason, remedy)
+        self._ctx.report.doubt(self.construct, self.span, reason, remedy, note)
 
     def finish(self) -> None:
         """Refuse arguments that nobody has asked for: they would be dropped."""

@@ -109,7 +109,10 @@ def require_at_start(leaf: Leaf, call: Arguments) -> None:
     """
     if leaf.enters:
         raise Inexpressible("where an actor is that only sets out later")
-    call.doubt("a scenario fails if it does not hold at the start, which XML does not check")
+    call.doubt(
+        "a scenario fails if it does not hold at the start, which XML does not check",
+        note="it holds at the start in the runs that were compared; the XML does not check it",
+    )
 
 
 def to_goal(

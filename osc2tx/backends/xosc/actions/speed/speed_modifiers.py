@@ -38,14 +38,13 @@ def _physical(leaf: Leaf, call: Arguments) -> Changes:
 @modifier("avoid_collisions", takes=())
 def _avoid(leaf: Leaf, call: Arguments) -> Changes:
     if call.get("avoid") is not False:
-        call.approximate(
-            "the XML cannot ask for caution; only controllers of the tool may have it",
-            "speed and place are those of the other modifiers, without braking for others or for"
-            " red lights",
+        call.doubt(
+            "the XML cannot ask for caution: nobody brakes for others, red lights or bends",
             Remedy(
                 instead="`change_speed` at a condition says when it brakes, and how, exactly",
                 asks=("SpeedActionDynamics",),
             ),
+            note="the XML cannot ask for caution; the runs that were compared did not need any",
         )
     return ()
 
