@@ -70,7 +70,7 @@ class CampaignCommand(RunCommand):
             raise ConfigError(f"{origin}: {error.format_message()}") from None
 
 
-BROKEN = frozenset({"error", "crashed"})  # statuses of rows that say nothing of the scenario
+BROKEN = frozenset({"error", "crashed"})  # statuses of rows without a result of the scenario
 FIELDS = {"kpi": "kpis"}  # where an option is called otherwise in `run`
 
 

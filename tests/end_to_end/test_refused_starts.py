@@ -201,7 +201,7 @@ def test_an_open_value_can_be_meant(shell: Shell) -> None:
 
 def test_code_of_the_user_is_not_run(shell: Shell) -> None:
     shell.write("own_code.py", "raise SystemExit('imported')\n")
-    own = "    def f() -> speed is external own_code.f()\n"
+    own = "    def f() -> speed is external own_code.f()\n    v: speed = f()\n"
     shell.write("top.osc", HEAD + TOP + own + CASES["beyond the road"])
     checked = shell("check", "top.osc")
     assert "OSC8" not in checked.err + checked.out, checked.err

@@ -53,4 +53,6 @@ def test_problems_of_outputs(shell: Shell) -> None:
     assert ended.code == 2
     assert "make the same module" in ended.err
     shell.write("file", "")
-    assert shell("build", "in/a_b.osc", "-o", "file").code == 4
+    ended = shell("build", "in/a_b.osc", "-o", "file")
+    assert ended.code == 2
+    assert "is a file" in ended.err
