@@ -107,6 +107,8 @@ def _first_in_time(builder: StoryboardBuilder, node: ir.OneOf, content: Flow) ->
     """
     assert node.duration is not None, "it is written"
     racing = fitting(builder.ctx, node)
+    if racing is not node and ir.is_drawn(node, builder.ctx.module.one_of):
+        raise Inexpressible("one of the members that take it is drawn", node.duration.span)
     lengths = [length_of(builder.ctx, member) for member in racing.members]
     if None in lengths or any(map(ir.is_open, racing.members)):
         reason = "the member that ends within the duration wins, which only the run shows"

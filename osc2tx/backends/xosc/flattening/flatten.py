@@ -196,10 +196,11 @@ class Flattener:
     def _one_of(self, node: ir.OneOf, start: Flow) -> Flow:
         policy = self._ctx.module.one_of
         if policy == "first":
+            first = fitting(self._ctx, node).members[0]
             if len(node.members) > 1:
-                note = f"`--one-of first` takes `{self._builder.name_of(node.members[0])}`"
+                note = f"`--one-of first` takes `{self._builder.name_of(first)}`"
                 self._ctx.report.exact("one_of", node.span, note)
-            return self._member(node.members[0], start)
+            return self._member(first, start)
         if ir.is_drawn(node, policy):
             return self._choice(node, start)
         if ir.is_partly_drawn(node, policy):
