@@ -184,7 +184,7 @@ def value_of_one_scenario(month: Month) -> None:
 
 def partial_build(month: Month) -> None:
     """A build of a folder writes its outputs, and says nothing of others."""
-    month.edit("scenarios/jam/queue/queue_0000.osc", "duration: 3s", "duration: 5s")
+    month.edit("scenarios/jam/queue/queue_0000.osc", "duration: 3s", "duration: 4s")
     month.edit("scenarios/highway/braking/brake_0000.osc", "duration: 2s", "duration: 3s")
     name = "highway/braking/brake_0000"
     compiled, changed = month.build("scenarios/highway")
@@ -257,11 +257,11 @@ def library_in_the_other_folder(month: Month) -> None:
 
 def error_in_one_scenario(month: Month) -> None:
     """A scenario with an error keeps no other from being built."""
-    month.edit("scenarios/jam/queue/queue_0000.osc", "duration: 5s", "duration: 5kph")
+    month.edit("scenarios/jam/queue/queue_0000.osc", "duration: 4s", "duration: 4kph")
     month.edit("scenarios/jam/queue/queue_0001.osc", "duration: 4s", "duration: 6s")
     _, changed = month.build(code=3)
     assert changed == files("jam/queue/queue_0001")
-    month.edit("scenarios/jam/queue/queue_0000.osc", "duration: 5kph", "duration: 5s")
+    month.edit("scenarios/jam/queue/queue_0000.osc", "duration: 4kph", "duration: 4s")
     assert month.build() == (set(), set())
     month.commit("one duration")
 
@@ -287,7 +287,7 @@ def stale_outputs_in_a_review(month: Month) -> None:
 def clean_merge(month: Month) -> None:
     """Branches that edit different scenarios merge, and their outputs as well."""
     month.git("switch", "--quiet", "--create", "side")
-    month.edit("scenarios/jam/queue/queue_0000.osc", "duration: 5s", "duration: 6s")
+    month.edit("scenarios/jam/queue/queue_0000.osc", "duration: 4s", "duration: 2s")
     month.build()
     month.commit("side")
     month.git("switch", "--quiet", "main")
@@ -300,12 +300,12 @@ def clean_merge(month: Month) -> None:
 
 def conflict(month: Month) -> None:
     """Conflict markers in a source are called so; those in outputs go with the next build."""
-    for branch, value in (("other", "9s"), ("main", "7s")):
+    for branch, value in (("other", "1s"), ("main", "3s")):
         if branch == "other":
             month.git("switch", "--quiet", "--create", "other")
         else:
             month.git("switch", "--quiet", "main")
-        month.edit("scenarios/jam/queue/queue_0000.osc", "duration: 6s", f"duration: {value}")
+        month.edit("scenarios/jam/queue/queue_0000.osc", "duration: 2s", f"duration: {value}")
         month.build()
         month.commit(branch)
     month.git("merge", "--no-edit", "other", code=1)
