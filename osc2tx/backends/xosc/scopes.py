@@ -161,8 +161,15 @@ class _Opener:
         chosen = {n: self._chosen[key] for n, key in keys.items() if key in self._chosen}
         values = Values(scenario, self._types, {**chosen, **given}, unknown or {})
         done = deeds(scenario)
-        scope = Scope(scenario, values, dict(handed_in), place.prefix, place.path, done)
-        scope.is_first = place.is_first
+        scope = Scope(
+            scenario,
+            values,
+            dict(handed_in),
+            place.prefix,
+            place.path,
+            done,
+            is_first=place.is_first,
+        )
         for declaration in scenario.declarations:
             if isinstance(declaration, ir.Actor) and declaration.name not in handed_in:
                 self._join(declaration, scope)

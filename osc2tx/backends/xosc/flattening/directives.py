@@ -112,7 +112,7 @@ def react(builder: StoryboardBuilder, node: ir.On, start: Flow) -> Flow:
     if trigger.event is None and not is_time and not isinstance(condition, ir.Edge):
         raise Inexpressible("only an event, an edge or a time can be reacted to")
     once = is_time or not events.occurrences.may_recur(trigger)
-    occurs = builder.after(node.trigger, start)
+    occurs = builder.after(trigger, start)
     if not once:
         occurs = _each_time(occurs, start)
     repeats = None if once else MANY_TIMES

@@ -19,12 +19,12 @@ from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.flattening.builder import VERDICT, StoryboardBuilder, construct_of
 from osc2tx.backends.xosc.flattening.failures import Role, fail_scenario
 from osc2tx.backends.xosc.flattening.lengths import (
-    SLACK,
     fitting,
     least_length,
     length_at_least,
     length_of,
     may_end_after,
+    takes,
 )
 from osc2tx.backends.xosc.flattening.until_ends import end_at_until, end_within
 from osc2tx.losses.entries import Inexpressible, Remedy
@@ -113,8 +113,8 @@ def _first_in_time(builder: StoryboardBuilder, node: ir.OneOf, content: Flow) ->
     if None in lengths or any(map(ir.is_open, racing.members)):
         reason = "the member that ends within the duration wins, which only the run shows"
         raise Inexpressible(reason, node.duration.span)
-    low, high = builder.ctx.values.bounds(node.duration)
-    if not any(low - SLACK <= length <= high + SLACK for length in lengths if length is not None):
+    duration = builder.ctx.values.bounds(node.duration)
+    if not any(takes(length, duration) for length in lengths if length is not None):
         raise Inexpressible("none of its members takes it: every run fails", node.duration.span)
     return content
 

@@ -71,16 +71,22 @@ def length_at_least(ctx: Context, node: ir.Behavior) -> float:
     return 0.0
 
 
+def takes(length: float, duration: tuple[float, float]) -> bool:
+    """Whether a length (s) lies within a duration, given by its least and most seconds."""
+    low, high = duration
+    return low - SLACK <= length <= high + SLACK
+
+
 def fitting(ctx: Context, node: ir.OneOf) -> ir.OneOf:
     """Return a race without the members that cannot take its duration: no run starts them."""
     if node.duration is None or ctx.module.dialect == "carla":
         return node
-    low, high = ctx.values.bounds(node.duration)
+    duration = ctx.values.bounds(node.duration)
     lengths = [None if ir.is_open(each) else length_of(ctx, each) for each in node.members]
     members = tuple(
         member
         for member, length in zip(node.members, lengths, strict=True)
-        if length is None or low - SLACK <= length <= high + SLACK
+        if length is None or takes(length, duration)
     )
     return replace(node, members=members) if 0 < len(members) < len(node.members) else node
 

@@ -16,7 +16,7 @@ from osc2tx_runtime.language.tree.base import (
 )
 from osc2tx_shared.rules.endings import Ending
 
-Member: TypeAlias = "tuple[Behaviour, Callable[[], Status]]"
+Member: TypeAlias = tuple[Behaviour, Callable[[], Status]]
 """A member with the call that ticks it."""
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from py_trees.common import ParallelPolicy
@@ -82,6 +83,7 @@ class Parallel(Composition, ParallelComposite):
         self.overlap: Overlap = overlap
         self.start_to_start = start_to_start
         self.end_to_end = end_to_end
+        self._timed: Sequence[Behaviour] = ()  # its members with rules of time
         self._bounding: frozenset[Behaviour] = frozenset()
         self._left = 0
         self._late = (0, 0.0)
@@ -94,7 +96,8 @@ class Parallel(Composition, ParallelComposite):
         """Plan the members, and find those that bound the composition."""
         super().setup(**kwargs)
         self._services = [member for member in self._members if is_service(member[0])]
-        self._bounding = frozenset(child for child in self._lasting() if not is_open(child))
+        self._timed = self._lasting()
+        self._bounding = frozenset(child for child in self._timed if not is_open(child))
         if self.overlap != "start" or self.start_to_start or self.end_to_end is not None:
             self._schedule = self._plan()
         self._may_rest = not self._services and self._schedule is None
@@ -108,7 +111,7 @@ class Parallel(Composition, ParallelComposite):
         self._late = (-1, 0.0)
         self._verdict = None
         if self._schedule is not None:
-            lasting = set(self._lasting())
+            lasting = set(self._timed)
             self._active = [member for member in self._members if member[0] not in lasting]
             timed = [member for member in self._members if member[0] in lasting]
             self._course = Course(self, timed, self._schedule, f"overlap {self.overlap}")
@@ -231,7 +234,7 @@ class Parallel(Composition, ParallelComposite):
 
     def open_since(self) -> tuple[int, float]:
         """Return when the last of its members has become so."""
-        since = [open_since(child) for child in self._lasting() if child.status is RUNNING]
+        since = [open_since(child) for child in self._timed if child.status is RUNNING]
         return max(since, key=lambda each: (each[0], -each[1]), default=super().open_since())
 
     def least_length(self) -> int | None:
@@ -250,11 +253,8 @@ class Parallel(Composition, ParallelComposite):
         )
 
     def _content_goes_on(self) -> bool:
-        lasting = self._lasting()
-        return any(child.status is RUNNING for child in lasting) and all(
-            child.status is SUCCESS or (child.status is RUNNING and goes_on(child))
-            for child in lasting
-        )
+        left = [child for child in self._timed if child.status is not SUCCESS]
+        return bool(left) and all(child.status is RUNNING and goes_on(child) for child in left)
 
     def _note_end(self, member: Behaviour) -> None:
         """Store the lateness of the last end."""
@@ -264,7 +264,7 @@ class Parallel(Composition, ParallelComposite):
 
     def _content_lateness(self) -> float:
         now = self.context.step
-        open_ones = [child for child in self._lasting() if is_open(child)]
+        open_ones = [child for child in self._timed if is_open(child)]
         others = [open_since(child) for child in open_ones if child.status is RUNNING]
         late = [late for step, late in (self._late, *others) if step == now]
         return min(late) if late else super()._content_lateness()
